@@ -11,11 +11,10 @@
 
 #include "analysis/shared_inputs.h"
 #include "base/error.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<ContributionChange> changes(const Budget* before, const Budget* after) {
   std::map<std::string, ContributionChange> squares;
@@ -35,7 +34,7 @@ std::vector<ContributionChange> changes(const Budget* before, const Budget* afte
 }
 
 /// Square of an uncertainty of the difference; a negative one is the first order's rounding.
-double root(double square) { return square > 0 ? std::sqrt(square) : square <= 0 ? 0 : none; }
+double root(double square) { return square > 0 ? std::sqrt(square) : square <= 0 ? 0 : nan; }
 
 Agreement agreement(const Summary& before, const Summary& after, const Budget* budget_before,
                     const Budget* budget_after, const std::vector<std::string>& same) {
@@ -69,7 +68,7 @@ Agreement agreement(const Summary& before, const Summary& after, const Budget* b
   const double expanded = std::hypot(before.expanded_uncertainty, after.expanded_uncertainty);
   const double factors = shared == 0 ? 1 : before.coverage_factor * after.coverage_factor;
   d.expanded_uncertainty = root(expanded * expanded - 2 * factors * shared);
-  d.normalised_error = d.expanded_uncertainty > 0 ? d.difference / d.expanded_uncertainty : none;
+  d.normalised_error = d.expanded_uncertainty > 0 ? d.difference / d.expanded_uncertainty : nan;
   // The relative change of u(d) is cov / u(d)^2.
   for (const auto& [name, both] : maybe)
     if (std::fabs(both) > 0.01 * d.standard_uncertainty * d.standard_uncertainty) out.alike.push_back(name);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/rounding.h"
+#include "base/special_values.h"
 #include "base/units.h"
 
 namespace gumshoe::analysis {
@@ -25,7 +26,6 @@ std::string certificate_line(const Summary& s, double p, bool error) {
 }
 
 void certify(Summary& s, const Budget& b, const Validation& v, double p, bool error) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const bool gum = b.applicable && v.verdict == "validated";
   s.expanded_uncertainty = gum ? b.expanded_uncertainty : s.monte_carlo_expanded;
   s.coverage_factor = gum ? b.coverage_factor : s.monte_carlo_expanded / s.standard_uncertainty;

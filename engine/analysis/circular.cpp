@@ -11,13 +11,13 @@
 #include "analysis/leaves.h"
 #include "analysis/ordered_column.h"
 #include "analysis/summary.h"
+#include "base/special_values.h"
 #include "propagation/propagate.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double turn = 2 * std::numbers::pi;
 
 double square(double x) { return x * x; }

@@ -20,7 +20,7 @@ bool matches(const quantities::Labels& labels, const quantities::Labels& wanted)
 }
 
 /// a - b, sample by sample.
-Column difference(const Column& a, const Column& b) {
+Column difference_of(const Column& a, const Column& b) {
   return {a.size(),
           [&](std::size_t first, std::span<double> out) {
             Room room;
@@ -46,7 +46,7 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         if (!c.within.empty() && label_value(la, c.within) != label_value(lb, c.within)) continue;
         Room rooms[2];
         const Column first = held(values(i), rooms[0], 2), second = held(values(j), rooms[1], 2);
-        Summary s = summarise(a, difference(first, second), e.scenario().analysis.coverage_probability, threads);
+        Summary s = summarise(a, difference_of(first, second), e.scenario().analysis.coverage_probability, threads);
         join_rounded(s);
         ComparisonResult r;
         r.a = a.name;

@@ -11,14 +11,13 @@
 #include "analysis/ordered_sum.h"
 #include "analysis/outputs.h"
 #include "analysis/rounding.h"
+#include "base/special_values.h"
 #include "base/units.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_deviations = 200'000; ///< of the integrals over the process
 
 /// Closed; an absent limit is infinite.
@@ -34,9 +33,11 @@ public:
   double mean() const { return value_ + distribution_.mean(); }
   double u() const { return std::sqrt(distribution_.variance()); }
   double density(double x) const { return distribution_.density(x - value_); }
-  double below_or_at(double x) const { return x == inf ? 1 : x == -inf ? 0 : distribution_.probability(x - value_); }
+  double below_or_at(double x) const {
+    return x == infinity ? 1 : x == -infinity ? 0 : distribution_.probability(x - value_);
+  }
   double below(double x) const {
-    return x == inf ? 1 : x == -inf ? 0 : distribution_.probability(std::nextafter(x - value_, -inf));
+    return x == infinity ? 1 : x == -infinity ? 0 : distribution_.probability(std::nextafter(x - value_, -infinity));
   }
   double within(Range r) const { return r.high >= r.low ? std::max(0.0, below_or_at(r.high) - below(r.low)) : 0; }
 
@@ -221,7 +222,7 @@ ConformityResult assess(const Column& samples, const Known& known, const scenari
         std::isfinite(standard_uncertainty) ? 1.65 * standard_uncertainty : one_sided_uncertainty(y, estimate);
   r.acceptance_lower = r.lower + r.guard_band;
   r.acceptance_upper = r.upper - r.guard_band;
-  const Range tolerance{test.lower.value_or(-inf), test.upper.value_or(inf)};
+  const Range tolerance{test.lower.value_or(-infinity), test.upper.value_or(infinity)};
   const Range acceptance{tolerance.low + r.guard_band, tolerance.high - r.guard_band};
   r.specific_consumer_risk = r.specific_producer_risk = r.process_mean = r.process_u = r.process_conformance =
       r.posterior_conformance = r.posterior_conformance_se = r.global_consumer_risk = r.global_consumer_risk_se =

@@ -7,20 +7,17 @@
 #include "analysis/reach.h"
 #include "analysis/screening.h"
 #include "analysis/units.h"
+#include "base/special_values.h"
 #include "propagation/parallel.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-constexpr std::size_t points_per_unit = 8; // what a model runs at once
-
 /// Derivatives of the outputs by the variates that reach them, at points drawn at random. Thread-safe.
-class Slopes {
+class SlopesAtPoints {
 public:
-  explicit Slopes(const propagation::Experiment& e, std::uint64_t points)
+  explicit SlopesAtPoints(const propagation::Experiment& e, std::uint64_t points)
       : e_(e), points_(points), d_(e.plan().variates.size()),
         by_differences_(e.scenario().method == scenario::Method::virtual_experiment || !e.has_gradient()),
         sampler_(e.plan(), quantities::PointSet::monte_carlo, points) {
@@ -128,7 +125,7 @@ DgsmRow row_of(const quantities::Variate& variate, const std::vector<double>& sl
 } // namespace
 
 propagation::Work dgsm_work(const propagation::Experiment& e, std::uint64_t points) {
-  const auto slopes = std::make_shared<const Slopes>(e, points);
+  const auto slopes = std::make_shared<const SlopesAtPoints>(e, points);
   return {
       .name = "dgsm",
       .units = (points + points_per_unit - 1) / points_per_unit,
@@ -146,7 +143,7 @@ std::vector<Dgsm> derivative_measures(const propagation::Experiment& e, std::uin
   if (plan.copulas.empty())
     propagation::parallel_for(d, workers.threads,
                               [&](std::size_t v) { constants[v] = poincare_constant(plan.variates[v].distribution); });
-  const Slopes slopes(e, points);
+  const SlopesAtPoints slopes(e, points);
   const std::vector<double> all = workers.values(dgsm_work(e, points));
 
   std::vector<Dgsm> results;

@@ -8,6 +8,7 @@
 
 #include "analysis/gum.h"
 #include "analysis/reach.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 namespace {
@@ -27,7 +28,7 @@ std::vector<double> steps(const propagation::Experiment& e, std::size_t reading,
     }
     if (h[q] == 0) continue;
     if (const std::size_t of = plan.columns[columns[q]].quantity; e.layout().model.contains(of)) {
-      const Limits& limits = e.model().card->quantities[of].limits;
+      const gumshoe::Limits& limits = e.model().card->quantities[of].limits;
       const double room = std::min(point[q] - limits.low, limits.high - point[q]);
       if (room > 0) h[q] = std::min(h[q], 0.999 * room);
     }
@@ -92,7 +93,6 @@ Places places(const std::vector<double>& h, bool second) {
 /// Derivatives of one measurand from its values f(place) at the stencil.
 template <class Value>
 Derivatives of_values(const Value& f, const Places& at, const std::vector<double>& h, bool second) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = h.size();
   const auto& lines = at.lines;
   Derivatives d;

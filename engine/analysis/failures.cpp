@@ -17,7 +17,7 @@ namespace {
 
 /// The range of n draws that are unrelated to an input holds less than half of all draws with a probability of
 /// (n + 1) / 2^n: 2e-5 for 20.
-constexpr std::size_t least = 20;
+constexpr std::size_t least_failures = 20;
 constexpr double narrow = 0.5;
 constexpr std::size_t most_failed = 2000, most_drawn = 16384, most_inputs = 3;
 
@@ -79,7 +79,7 @@ std::string range_text(double low, double high) {
 /// "; a is 1 to 2 mm in them, as in 3 % of all samples"; empty if no input's range is narrow.
 std::string where(const propagation::Experiment& e, const Draws& draws, const Drawn& all,
                   const std::vector<std::uint64_t>& failed) {
-  if (failed.size() < least) return {};
+  if (failed.size() < least_failures) return {};
   Drawn there;
   for (const std::uint64_t sample : failed) draws.add(sample, 1, there);
   std::multimap<std::size_t, std::string> found; // by the number of samples in the range

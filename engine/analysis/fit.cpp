@@ -6,13 +6,12 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "analysis/leaves.h"
+#include "base/special_values.h"
 #include "models/fit.h"
 #include "propagation/all_readings.h"
 
 namespace gumshoe::analysis {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<models::Fit> fit_of(const propagation::Experiment& e) {
   const models::FitFunction function = models::fit_function(e.model());

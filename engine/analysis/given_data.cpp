@@ -7,6 +7,7 @@
 #include "analysis/reach.h"
 #include "analysis/summary.h"
 #include "base/hash.h"
+#include "base/special_values.h"
 #include "propagation/propagate.h"
 
 namespace gumshoe::analysis {
@@ -14,7 +15,6 @@ namespace gumshoe::analysis {
 namespace {
 
 constexpr double normal_95 = 1.959964;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 using Order = std::vector<std::uint32_t>;
 
 Order order_of(const std::vector<double>& x, std::uint64_t key) {
@@ -76,18 +76,18 @@ double slope(double z) {
   return (z < 0 ? -1 : 1) + (2 * bump_b * z + z * (bump_a - bump_b * z * z)) * std::exp(-0.5 * z * z);
 }
 
-struct Estimate {
+struct Delta {
   double value = 0, se = 0;
 };
 
-Estimate delta_of(const std::vector<std::uint16_t>& x, std::size_t nx, const std::vector<std::uint16_t>& y,
-                  std::size_t ny) {
+Delta delta_of(const std::vector<std::uint16_t>& x, std::size_t nx, const std::vector<std::uint16_t>& y,
+               std::size_t ny) {
   std::vector<double> count(nx * ny, 0), row(nx, 0), column(ny, 0), s(nx * ny, 0), row_mean(nx, 0), column_mean(ny, 0);
   const double n = static_cast<double>(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) count[x[i] * ny + y[i]] += 1;
   for (std::size_t a = 0; a < nx; ++a)
     for (std::size_t b = 0; b < ny; ++b) row[a] += count[a * ny + b], column[b] += count[a * ny + b];
-  Estimate e;
+  Delta e;
   for (std::size_t a = 0; a < nx; ++a)
     for (std::size_t b = 0; b < ny; ++b) {
       if (row[a] == 0 || column[b] == 0) continue;
@@ -111,12 +111,12 @@ Estimate delta_of(const std::vector<std::uint16_t>& x, std::size_t nx, const std
 /// The finest table whose refinement is more than chance.
 Index delta_index(const Order& x_order, const std::vector<double>& x, const Order& y_order,
                   const std::vector<double>& y) {
-  Estimate best;
+  Delta best;
   double gain = 0;
   for (std::size_t size = 8; size == 8 || (size <= 64 && size * size * 16 <= x.size()); size *= 2) {
     std::size_t nx = 0, ny = 0;
     const auto cx = classes_of(x_order, x, size, nx), cy = classes_of(y_order, y, size, ny);
-    const Estimate e = delta_of(cx, nx, cy, ny);
+    const Delta e = delta_of(cx, nx, cy, ny);
     if (size > 8 && e.value - best.value < best.se) continue;
     gain = size > 8 ? e.value - best.value : 0;
     best = e;

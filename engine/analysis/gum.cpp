@@ -13,12 +13,9 @@
 #include "analysis/differences.h"
 #include "analysis/reach.h"
 #include "analysis/tolerance.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
-
-namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-} // namespace
 
 std::string scope_text(const quantities::Component& component) {
   std::string text;

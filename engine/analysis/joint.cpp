@@ -14,22 +14,22 @@
 #include "analysis/ranked.h"
 #include "analysis/reach.h"
 #include "analysis/summary.h"
+#include "base/special_values.h"
 #include "propagation/propagate.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-struct Factor {
+struct CoverageFactor {
   double k, se;
 };
 
 /// The p-quantile of n distances, whose squares `fill` computes, ranked as in JCGM 101 7.7.2, and half the distance
 /// between the ranks one binomial standard deviation to either side.
-Factor factor(std::size_t n, const Fill& fill, double p, int threads) {
+CoverageFactor factor(std::size_t n, const Fill& fill, double p, int threads) {
   const double m = static_cast<double>(n), step = std::max(1.0, std::sqrt(m * p * (1 - p)));
   const double rank = static_cast<double>(std::max<std::size_t>(1, covered_ranks(n, p)) - 1);
   std::size_t ranks[3];

@@ -2,15 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "analysis/leaves.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums of eight interleaved series, which do not wait for each other.
 using Lanes = std::array<double, 8>;

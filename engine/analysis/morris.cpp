@@ -7,13 +7,12 @@
 #include "analysis/units.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/special_values.h"
 #include "random/streams.h"
 
 namespace gumshoe::analysis {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// What a step is measured in.
 double scale_of(const quantities::Distribution& d) {
@@ -43,8 +42,6 @@ MorrisRow row_of(const std::string& input, const std::vector<double>& effects) {
   row.mean_absolute_se = std::sqrt(squares_absolute / (n - 1) / n);
   return row;
 }
-
-constexpr std::size_t points_per_unit = 8; // what a model runs at once
 
 /// Steps of the variates, and their effects. Thread-safe.
 class Steps {

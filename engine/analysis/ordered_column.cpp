@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
 #include "analysis/leaves.h"
 #include "analysis/order_key.h"
 #include "analysis/ordered_tails.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// Keys of values at and above, at and below: both zeros are one value.
 std::int64_t from_value(double v) { return key_of(v == 0 ? -0.0 : v); }
@@ -115,18 +113,18 @@ void OrderedColumn::finish_first(std::unique_ptr<Pass> pass, std::size_t valid) 
     if (count > 0) cells_.push_back({first, last, rank, count});
     rank += count;
   };
-  if (!pass) return add(key_of(-inf), key_of(inf), valid);
+  if (!pass) return add(key_of(-infinity), key_of(infinity), valid);
   const Sieved found = pass->sieve.found();
   const std::vector<SieveRange>& ranges = pass->sieve.ranges();
   const std::uint64_t inside = std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
   const std::uint64_t between = size - found.below - found.above - inside;
   if (between > size || (ranges.size() == 1 && between != 0)) changed();
-  add(key_of(-inf), ranges.front().first - 1, found.below);
+  add(key_of(-infinity), ranges.front().first - 1, found.below);
   for (const SieveRange& r : ranges) {
     if (&r != &ranges.front()) add(ranges.front().last + 1, r.first - 1, between);
     each_bin(r, [&](std::size_t bin, std::int64_t first, std::int64_t last) { add(first, last, found.counts[bin]); });
   }
-  add(ranges.back().last + 1, key_of(inf), found.above);
+  add(ranges.back().last + 1, key_of(infinity), found.above);
 }
 
 std::size_t OrderedColumn::cell_of(std::size_t rank) const {

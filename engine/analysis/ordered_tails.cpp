@@ -4,17 +4,15 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include <boost/sort/pdqsort/pdqsort.hpp>
 
 #include "analysis/leaves.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// Appends those of x that `beyond` holds for; branches that cannot be foretold would cost more than the stores.
 template <class Beyond> void append(std::vector<double>& to, std::span<const double> x, const Beyond& beyond) {
@@ -55,7 +53,7 @@ std::vector<double> pilot_sample(const Column& x, std::size_t most) {
 OrderedTails ordered_tails(const Column& x, std::size_t valid, std::size_t tail, int threads) {
   OrderedTails t;
   t.size = valid;
-  double low = inf, high = inf; // everything is low
+  double low = infinity, high = infinity; // everything is low
   // To sort it takes less time than to pass over the values.
   const std::size_t pilots = std::clamp<std::size_t>(x.size() / 64, 1024, 16384);
   if (const auto pilot = pilot_sample(x, pilots); 4 * tail < valid && pilot.size() >= 500) {
@@ -64,11 +62,11 @@ OrderedTails ordered_tails(const Column& x, std::size_t valid, std::size_t tail,
     const auto out = static_cast<std::size_t>(std::ceil(share * m + 4 * std::sqrt(share * m) + 1));
     if (2 * out < pilot.size()) low = pilot[out], high = pilot[pilot.size() - 1 - out];
   }
-  if (!(low < high)) low = inf;
+  if (!(low < high)) low = infinity;
   std::vector<double> below, above;
   const auto collect = [&] {
     std::vector<std::vector<double>> lows(parts(x.size())), highs(lows.size());
-    const bool both = low < inf;
+    const bool both = low < infinity;
     for_parts(x, threads, [&](std::size_t part, std::span<const double> some) {
       append(lows[part], some, [&](double v) { return v <= low; });
       if (both) append(highs[part], some, [&](double v) { return v >= high; });
@@ -77,8 +75,8 @@ OrderedTails ordered_tails(const Column& x, std::size_t valid, std::size_t tail,
     above = joined(highs);
   };
   collect();
-  if (low < inf && (below.size() < tail || above.size() < tail)) {
-    low = inf;
+  if (low < infinity && (below.size() < tail || above.size() < tail)) {
+    low = infinity;
     collect();
   }
   const auto order = [&](std::size_t side) { (side == 0 ? t.low : t.high) = Binned(side == 0 ? below : above); };
@@ -90,7 +88,7 @@ OrderedTails ordered_tails(const Column& x, std::size_t valid, std::size_t tail,
 }
 
 std::size_t OrderedTails::shortest(std::size_t span) const {
-  double least = inf;
+  double least = infinity;
   std::size_t best = 0;
   const auto search = [&](std::size_t first, std::size_t last) {
     const double* const from = low.sorted(first, last);

@@ -65,9 +65,9 @@ bool reaches(const std::vector<bool>& variates, const Factor& factor) {
 namespace {
 
 /// One block of rows: its draws, its outputs, and which rows failed. Its buffers serve one block after the other.
-class Block {
+class PickFrozen {
 public:
-  Block(const propagation::Experiment& e, const quantities::Sampler& sampler, const std::vector<Factor>& factors)
+  PickFrozen(const propagation::Experiment& e, const quantities::Sampler& sampler, const std::vector<Factor>& factors)
       : e_(e), sampler_(sampler), factors_(factors), d_(e.plan().variates.size()), outputs_(e.outputs().size()),
         pointers_(d_), columns_of_(factors.size()) {
     std::vector<std::size_t> factor_of(d_);
@@ -169,7 +169,7 @@ public:
   PickFreezeSums sums(std::uint64_t first, std::uint64_t last) const {
     std::call_once(once_, [&] { origin_ = origins(); });
     PickFreezeSums s = no_sums(last - first);
-    Block block(e_, sampler_, factors_);
+    PickFrozen block(e_, sampler_, factors_);
     Outputs y;
     for (std::uint64_t at = first; at < last; at += most_rows)
       add(s, block, y, at, std::min<std::uint64_t>(most_rows, last - at), (at - first) / units_.per_group);
@@ -182,7 +182,7 @@ private:
     constexpr std::size_t n = 64;
     const std::size_t outputs = e_.outputs().size();
     std::vector<double> y, origin(outputs);
-    Block block(e_, sampler_, factors_);
+    PickFrozen block(e_, sampler_, factors_);
     block.draw(0, n);
     block.run(true, y, false);
     for (std::size_t o = 0; o < outputs; ++o) {
@@ -195,7 +195,7 @@ private:
   }
 
   /// Rows [first, first + rows) into the sums of the groups from `group` on.
-  void add(PickFreezeSums& s, Block& block, Outputs& y, std::uint64_t first, std::size_t rows,
+  void add(PickFreezeSums& s, PickFrozen& block, Outputs& y, std::uint64_t first, std::size_t rows,
            std::size_t group) const {
     const std::size_t outputs = e_.outputs().size(), per_group = units_.per_group,
                       groups = (rows + per_group - 1) / per_group;

@@ -1,9 +1,10 @@
 #include "analysis/poincare.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
+
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
@@ -75,7 +76,6 @@ double bounded(const quantities::Distribution& d) {
 
 double poincare_constant(const quantities::Distribution& d) {
   using quantities::Family;
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto& p = d.parameters;
   switch (d.family) {
   case Family::rectangular:

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "analysis/leaves.h"
 #include "analysis/ordered_column.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 struct Bracket {
-  double low = -inf, high = inf;
+  double low = -infinity, high = infinity;
 };
 
 /// Where the ranks lie in a sample of the values, four standard deviations of its own ranks to either side.
@@ -32,8 +30,8 @@ Bracket bracket(std::size_t n, const Fill& fill, std::size_t first_rank, std::si
     return share * m + side * (4 * std::sqrt(m * share * (1 - share)) + 1);
   };
   const double low = std::floor(end(first_rank, -1)), high = std::ceil(end(last_rank, 1));
-  return {low < 0 ? -inf : pilot[static_cast<std::size_t>(low)],
-          high >= m ? inf : pilot[static_cast<std::size_t>(high)]};
+  return {low < 0 ? -infinity : pilot[static_cast<std::size_t>(low)],
+          high >= m ? infinity : pilot[static_cast<std::size_t>(high)]};
 }
 
 struct Inside {
@@ -43,7 +41,7 @@ struct Inside {
 
 /// Adds what of a leaf lies inside the bracket, and counts what lies below it.
 void add(std::span<const double> leaf, const Bracket& b, Inside& to) {
-  const bool all = b.low == -inf && b.high == inf;
+  const bool all = b.low == -infinity && b.high == infinity;
   std::array<double, leaf_values> kept;
   std::size_t within = 0;
   for (const double v : leaf) { // without branches, which could not be foretold

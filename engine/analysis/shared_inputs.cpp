@@ -29,7 +29,7 @@ bool alike(const Contribution& a, const Contribution& b) {
          a.standard_uncertainty == b.standard_uncertainty && a.distribution == b.distribution;
 }
 
-void require_shared(std::span<const std::string> same, std::span<const Results* const> results) {
+void require_shared(std::span<const std::string> wanted, std::span<const Results* const> results) {
   std::map<std::string, std::size_t> known; // in how many results
   for (const Results* r : results) {
     std::set<std::string> names;
@@ -41,7 +41,7 @@ void require_shared(std::span<const std::string> same, std::span<const Results* 
   for (const auto& [name, count] : known)
     if (count > 1) shared.push_back(name);
   std::vector<Problem> problems;
-  for (const std::string& name : same) {
+  for (const std::string& name : wanted) {
     if (std::ranges::find(shared, name) != shared.end()) continue;
     const std::string near = nearest(name, shared);
     problems.push_back({{},

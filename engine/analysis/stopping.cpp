@@ -9,13 +9,13 @@
 
 #include "analysis/summary.h"
 #include "analysis/tolerance.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t endless = std::numeric_limits<std::uint64_t>::max();
 
 double variance(const std::vector<double>& x) { return x.size() < 2 ? nan : moments(x).variance; }
 
@@ -70,7 +70,7 @@ void StoppingRules::look() {
       if (blocks_ != first_stage) continue;
       const double t = quantile(boost::math::students_t(static_cast<double>(first_stage - 1)), 0.975);
       const double needed = std::ceil(t * t * s2 / (delta * delta));
-      asked = std::max(asked, needed < 1e15 ? static_cast<std::uint64_t>(needed) : none); // NaN: without end
+      asked = std::max(asked, needed < 1e15 ? static_cast<std::uint64_t>(needed) : endless); // NaN: without end
     }
   }
   settled_ = settled;
@@ -134,7 +134,7 @@ StoppingRecord run_adaptively(const propagation::Experiment& e, propagation::Sam
   r.digits = options.digits;
   r.block = block;
   r.jcgm_trials = rules.jcgm_blocks() * block;
-  r.stein_trials = rules.stein_blocks() == none ? 0 : rules.stein_blocks() * block;
+  r.stein_trials = rules.stein_blocks() == endless ? 0 : rules.stein_blocks() * block;
   const std::uint64_t needed = stein ? rules.stein_blocks() : rules.jcgm_blocks();
   r.reached = needed > 0 && needed <= most && (rules.settled() || !options.validation);
   r.trials = std::min(r.reached && !options.validation ? needed : most, rules.blocks()) * block;

@@ -12,13 +12,11 @@
 #include "analysis/moments.h"
 #include "analysis/ordered_tails.h"
 #include "analysis/tails.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// Places, from 0, of the symmetric interval's ends among m ordered values.
 std::pair<std::size_t, std::size_t> symmetric_ranks(std::size_t m, double p) {
@@ -210,8 +208,8 @@ void add_intervals(Summary& s, const Ordered& ordered, const Column& values, dou
   s.shortest_length_se = 0.5 * ((wider.high - wider.low) - (narrower.high - narrower.low));
   if (s.failed > 0) {
     const BoundRanks bounds = bound_ranks(s, p);
-    s.symmetric.low_rank = s.shortest.low_rank = bounds.low ? ordered[*bounds.low] : -inf;
-    s.symmetric.high_rank = s.shortest.high_rank = bounds.high ? ordered[*bounds.high] : inf;
+    s.symmetric.low_rank = s.shortest.low_rank = bounds.low ? ordered[*bounds.low] : -infinity;
+    s.symmetric.high_rank = s.shortest.high_rank = bounds.high ? ordered[*bounds.high] : infinity;
   }
   histogram(s, values, ordered[0], ordered[s.valid - 1], threads);
 }

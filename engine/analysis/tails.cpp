@@ -7,14 +7,13 @@
 #include <fmt/format.h>
 
 #include "analysis/ordered_tails.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr std::size_t least = 1000;
+constexpr std::size_t least_exceedances = 1000;
 
 /// Order statistics to go by: a share of the sample that shrinks, in a number that grows.
 std::size_t tail_size(std::size_t n) { return static_cast<std::size_t>(std::pow(static_cast<double>(n), 0.6)); }
@@ -31,7 +30,7 @@ double hill(std::span<const double> falling) {
   if (falling.size() < 2 || !(falling.back() > 0)) return nan;
   double sum = 0;
   for (std::size_t i = 0; i + 1 < falling.size(); ++i) sum += std::log(falling[i] / falling.back());
-  return sum > 0 ? static_cast<double>(falling.size() - 1) / sum : inf;
+  return sum > 0 ? static_cast<double>(falling.size() - 1) / sum : infinity;
 }
 
 } // namespace
@@ -50,7 +49,7 @@ void use_median(const Column& values, Summary& s, int threads) {
 }
 
 void add_tail_ranks(std::size_t valid, std::vector<RankRange>& ranks) {
-  if (valid < least) return;
+  if (valid < least_exceedances) return;
   const std::size_t k = tail_size(valid);
   ranks.push_back({0, k});
   ranks.push_back({valid - 1 - k, valid - 1});
@@ -80,10 +79,10 @@ bool withhold_beyond_range(const Column& values, Summary& s, int threads) {
 void check_tails(const Column& values, Summary& s, int threads, const KeptOrder* order) {
   s.hill_index = nan;
   if (withhold_beyond_range(values, s, threads)) return;
-  if (s.valid < least || !(s.standard_uncertainty > 0)) return;
+  if (s.valid < least_exceedances || !(s.standard_uncertainty > 0)) return;
   const bool known = order && order->has_value();
   const auto some = known && !(*order)->pilot().empty() ? (*order)->pilot() : pilot_sample(values);
-  if (some.size() < least) return;
+  if (some.size() < least_exceedances) return;
   const std::size_t k = tail_size(s.valid);
   const double median = some[some.size() / 2];
   const OrderedTails own = known ? OrderedTails() : ordered_tails(values, s.valid, k + 1, threads);

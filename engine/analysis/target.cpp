@@ -11,14 +11,13 @@
 #include "analysis/reach.h"
 #include "analysis/rounding.h"
 #include "analysis/trial.h"
+#include "base/special_values.h"
 #include "base/units.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double largest_scale = 100, tolerance = 1e-3;
 
 /// The largest scale s in [0, 100] with U(s) <= wanted, where U^2 is nearly linear in s^2: Illinois steps in s^2 within
@@ -26,12 +25,12 @@ constexpr double largest_scale = 100, tolerance = 1e-3;
 /// is known to lie above 0 (correlated inputs).
 template <class Function>
 double largest_allowed(const Function& u, double at_1, double at_0, double wanted, double dip) {
-  struct Point {
+  struct Tried {
     double x, f; // s^2, U^2 - wanted^2
   };
   const auto excess = [&](double value) { return value * value - wanted * wanted; };
-  const auto at = [&](double x) { return Point{x, excess(u(std::sqrt(x)))}; };
-  Point low{0, excess(at_0)}, high{1, excess(at_1)};
+  const auto at = [&](double x) { return Tried{x, excess(u(std::sqrt(x)))}; };
+  Tried low{0, excess(at_0)}, high{1, excess(at_1)};
   if (low.f > 0 && dip > 0) {
     low = at(dip * dip);
     if (low.x > high.x) high = low;
@@ -41,7 +40,7 @@ double largest_allowed(const Function& u, double at_1, double at_0, double wante
     while (high.f <= 0) {
       const double slope = (high.f - low.f) / (high.x - low.x);
       low = high;
-      if (low.x >= most) return inf;
+      if (low.x >= most) return infinity;
       const double guess = slope > 0 ? low.x - 1.05 * low.f / slope : most;
       high = at(std::clamp(guess, low.x * 1.02, most));
     }
@@ -53,7 +52,7 @@ double largest_allowed(const Function& u, double at_1, double at_0, double wante
     const double margin = 0.4 * tolerance * high.x;
     if (step > 0) x += step % 2 == 0 ? -margin : margin;
     if (step % 5 == 4) x = 0.5 * (low.x + high.x);
-    const Point p = at(std::clamp(x, low.x + 0.25 * tolerance * high.x, high.x - 0.25 * tolerance * high.x));
+    const Tried p = at(std::clamp(x, low.x + 0.25 * tolerance * high.x, high.x - 0.25 * tolerance * high.x));
     (p.f <= 0 ? low : high) = p;
   }
   return std::sqrt(low.x);

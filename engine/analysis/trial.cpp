@@ -12,7 +12,7 @@ namespace gumshoe::analysis {
 
 namespace {
 
-constexpr std::size_t block = 4096;
+constexpr std::size_t block_samples = 4096;
 
 /// True if every reading has the same labels, so that one alone makes a scenario.
 bool alike(const std::vector<quantities::Reading>& readings) {
@@ -42,9 +42,9 @@ Trial::Trial(const propagation::Experiment& e, std::size_t output, int threads)
   points_ = static_cast<std::size_t>(std::max<std::uint64_t>(8, n / 8 * 8));
   drawn_.resize(variates * points_);
   const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, points_);
-  propagation::parallel_for((points_ + block - 1) / block, threads, [&](std::size_t b) {
-    const std::size_t first = b * block;
-    sampler.draw(first, std::min(block, points_ - first), quantities::Purpose::sampling, drawn_.data() + first,
+  propagation::parallel_for((points_ + block_samples - 1) / block_samples, threads, [&](std::size_t b) {
+    const std::size_t first = b * block_samples;
+    sampler.draw(first, std::min(block_samples, points_ - first), quantities::Purpose::sampling, drawn_.data() + first,
                  points_);
   });
   for (const auto& v : plan.variates) {
@@ -57,8 +57,8 @@ double Trial::expanded_uncertainty(const std::vector<double>& scale) {
   ++runs_;
   const std::size_t variates = scale.size(), rows = experiment_->outputs().size();
   std::vector<double> y(points_);
-  propagation::parallel_for((points_ + block - 1) / block, threads_, [&](std::size_t b) {
-    const std::size_t first = b * block, n = std::min(block, points_ - first);
+  propagation::parallel_for((points_ + block_samples - 1) / block_samples, threads_, [&](std::size_t b) {
+    const std::size_t first = b * block_samples, n = std::min(block_samples, points_ - first);
     std::vector<double> scaled(variates * n), outputs(rows * n);
     std::vector<const double*> pointers;
     for (std::size_t v = 0; v < variates; ++v) {

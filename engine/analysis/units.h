@@ -37,6 +37,8 @@ struct Aligned {
   explicit Aligned(std::uint64_t row) : begin(row / 64 * 64), offset(static_cast<std::size_t>(row - begin)) {}
 };
 
+/// Points that a unit of a screening holds: what a model runs at once.
+inline constexpr std::size_t points_per_unit = 8;
 /// Points of a screening that go through the model in one call: many where a call is costly (a program), and a multiple
 /// of 64.
 std::uint64_t points_in_a_call(const propagation::Experiment& experiment);

@@ -239,13 +239,13 @@ void require_common(const std::string& measurand,
 
 } // namespace
 
-WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same,
+WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& shared,
                              const std::string& measurand) {
   if (results.size() < 2) throw InputError("a single result cannot be combined", "", "name two or more result files");
   std::vector<const Results*> all;
   for (const NamedResult& r : results) all.push_back(&r.results);
   require_one_coverage(all);
-  require_shared(same, all);
+  require_shared(shared, all);
   const auto outputs = outputs_of(results);
   if (!measurand.empty()) require_common(measurand, outputs);
   WeightedMeans out;
@@ -256,7 +256,7 @@ WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std:
     }
     if (!measurand.empty() && output != measurand) continue;
     try {
-      out.rows.push_back(Combining(results, same, output).combine(all[0]->coverage_probability));
+      out.rows.push_back(Combining(results, shared, output).combine(all[0]->coverage_probability));
     } catch (const InputError& e) {
       out.left_out.push_back({output, e.problems()[0]});
     }

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -56,8 +57,7 @@ int radian_exponent(const std::string& base) {
 }
 
 void sharpen(Unit& unit) {
-  const double pi = std::acos(-1.0);
-  for (const double constant : {1.0, pi}) {
+  for (const double constant : {1.0, std::numbers::pi}) {
     for (const bool inverse : {false, true}) {
       const double whole = inverse ? constant / unit.factor : unit.factor / constant;
       const double rounded = std::round(whole);
@@ -121,10 +121,10 @@ bool same_kind(const Unit& a, const Unit& b) {
   return a.radians ? without(a.base, "rad") == without(b.base, "rad") : a.base == b.base;
 }
 
-struct Row {
+struct KindOfUnit {
   std::string_view si_unit, name, remedy;
 };
-constexpr Row kinds[] = {
+constexpr KindOfUnit kinds[] = {
     {"m", "a length", "use mm or um"},
     {"rad", "an angle", "use deg or mrad"},
     {"s", "a time", "use s or ms"},
@@ -151,8 +151,8 @@ constexpr Row kinds[] = {
     {"mol", "an amount of substance", "use mol"},
 };
 
-const Row* row(const std::string& si_unit) {
-  for (const Row& r : kinds)
+const KindOfUnit* row(const std::string& si_unit) {
+  for (const KindOfUnit& r : kinds)
     if (r.si_unit == si_unit) return &r;
   return nullptr;
 }
@@ -184,7 +184,7 @@ struct Pair {
 Pair pair(const std::string& unit, const std::string& si_unit) {
   const Unit* const from = find(unit);
   const Unit* const to = find(si_unit);
-  const Row* const r = row(si_unit);
+  const KindOfUnit* const r = row(si_unit);
   const std::string remedy(r ? r->remedy : std::string_view());
   if (!from) throw unknown(unit, remedy);
   if (!to) throw InputError(fmt::format("'{}' is not a unit", si_unit));
@@ -309,7 +309,7 @@ bool convertible(const std::string& unit, const std::string& si_unit) {
 std::string si_unit_of(const std::string& unit) {
   const Unit* const known = find(unit);
   if (!known) throw unknown(unit, "");
-  for (const Row& r : kinds)
+  for (const KindOfUnit& r : kinds)
     if (const Unit* const si = find(std::string(r.si_unit));
         si && si->base == known->base && si->radians == known->radians)
       return std::string(r.si_unit);
@@ -340,7 +340,7 @@ std::string error_unit(const std::string& unit, const std::string& si_unit, doub
 }
 
 std::string kind_name(const std::string& si_unit) {
-  const Row* const r = row(si_unit);
+  const KindOfUnit* const r = row(si_unit);
   return r ? std::string(r->name) : "convertible to " + si_unit;
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
+#include "base/special_values.h"
 #include "calibration/fit.h"
 #include "math/direction_words.h"
 #include "math/parameter_covariance.h"
@@ -14,8 +14,6 @@
 namespace gumshoe::calibration {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using least_squares::Loss;
 
 /// Slope of psi, for the covariance of an M-estimate.

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/special_values.h"
 #include "math/parameter_covariance.h"
 
 namespace gumshoe::calibration {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double median_of(std::vector<double> x) {
   const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);

@@ -23,7 +23,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct AnalyseOptions {
   std::string file, scenario, out;
   PrintOptions print;
   int threads = 0;
@@ -54,7 +54,7 @@ void refuse_other_model(const propagation::Experiment& e, const store::StoredSam
   if (!how.empty()) throw InputError(file + ": its samples come from another model", how, "run the scenario again");
 }
 
-ExitCode analyse(const Options& o) {
+ExitCode analyse(const AnalyseOptions& o) {
   const store::Stored stored = store::open_result(o.file);
   refuse_unusable(stored, o.file);
   store::require_sound_samples(o.file);
@@ -101,7 +101,7 @@ ExitCode analyse(const Options& o) {
 
 void add_analyse(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("analyse", "analyses the stored samples of a result again and writes a new file");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<AnalyseOptions>();
   command->add_option("result", o->file, "result file (HDF5)")->required();
   command->add_option("--scenario", o->scenario, "instead of the one it was made from; only [analysis] may differ");
   command->add_option("-o,--out", o->out, "new result file (default: RESULT.analysed.h5)");

@@ -13,7 +13,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct ChooseOptions {
   std::string file, out, shard, format = "text";
   RunRequest request;
   int threads = 0;
@@ -26,7 +26,7 @@ std::string same_choice(const scenario::Scenario& s) {
 }
 
 /// What a rank other than the first does: it assesses candidates.
-Offer offer(const Options& o) {
+Offer offer(const ChooseOptions& o) {
   const auto s = std::make_shared<const scenario::Scenario>(scenario_of_choice(o.file, o.request));
   const propagation::Work grid = choice::assessment_work(*s, choice::coarse_places(*s));
   return {same_choice(*s), {{}, [s, grid](const std::string& name) {
@@ -34,7 +34,7 @@ Offer offer(const Options& o) {
                             }}};
 }
 
-ExitCode choose(const Options& o) {
+ExitCode choose(const ChooseOptions& o) {
   auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
   if (ranks && !ranks->first()) return help_first_rank(*ranks, o.threads, [&] { return offer(o); });
   const scenario::Scenario s = scenario_of_choice(o.file, o.request);
@@ -50,7 +50,7 @@ ExitCode choose(const Options& o) {
 void add_choose(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("choose", "finds the fastest settings that reach a target expanded uncertainty ([choose])");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ChooseOptions>();
   command->add_option("scenario", o->file, "scenario file (TOML) with [choose]")->required();
   command->add_option("--samples", o->request.samples, "samples per candidate, instead of the scenario's, e.g. 1e4");
   command->add_option("--seed", o->request.seed, "instead of the scenario's");

@@ -23,7 +23,7 @@ namespace gumshoe::cli {
 namespace {
 using namespace analysis;
 
-struct Options {
+struct CombineOptions {
   std::vector<std::string> files, same;
   std::string measurand, out, format = "text";
   bool force = false;
@@ -131,7 +131,7 @@ Json to_json(const WeightedMean& m, const std::vector<NamedResult>& results) {
   return out;
 }
 
-ExitCode combine(const Options& o) {
+ExitCode combine(const CombineOptions& o) {
   const std::vector<NamedResult> results = read_all(o.files);
   const WeightedMeans all = weighted_means(results, o.same, o.measurand);
   if (!o.out.empty() && all.rows.size() > 1)
@@ -160,7 +160,7 @@ ExitCode combine(const Options& o) {
 void add_combine(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("combine", "weighted mean of two or more results, and whether they are consistent");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CombineOptions>();
   command->add_option("results", o->files, "result files (HDF5) of the same measurands")->required();
   command->add_option("--same", o->same, "quantities that have one error in several results, such as a certificate's")
       ->delimiter(',')

@@ -23,9 +23,9 @@ namespace {
 using namespace analysis;
 
 constexpr std::size_t most_changes = 3; ///< contributions named in text
-constexpr std::size_t most = 12;        ///< measurands in text: beyond that, those of the largest E_n
+constexpr std::size_t most_measurands = 12; ///< measurands in text: beyond that, those of the largest E_n
 
-struct Options {
+struct CompareOptions {
   std::string before, after, format = "text";
   std::vector<std::string> same;
   bool all = false;
@@ -113,15 +113,15 @@ Json to_json(const Agreement& a) {
 void print(const Agreements& all, bool every) {
   std::vector<const Agreement*> rows;
   for (const auto& a : all.rows) rows.push_back(&a);
-  if (rows.size() > most && !every) {
+  if (rows.size() > most_measurands && !every) {
     const auto far = [](const Agreement* a) { return std::fabs(a->difference.normalised_error); };
     const auto above = std::ranges::count_if(rows, [&](const Agreement* a) { return far(a) > 1; });
     std::cout << fmt::format("{} measurands: |E_n| exceeds 1 in {}; the {} with the largest follow (--all: all)\n",
-                             rows.size(), above, most);
+                             rows.size(), above, most_measurands);
     std::ranges::stable_sort(rows, [&](const Agreement* a, const Agreement* b) {
       return far(a) > far(b) || (!std::isnan(far(a)) && std::isnan(far(b)));
     });
-    rows.resize(most);
+    rows.resize(most_measurands);
   }
   std::vector<std::string> alike;
   for (const Agreement* a : rows) {
@@ -137,7 +137,7 @@ void print(const Agreements& all, bool every) {
                              fmt::join(alike, ", "));
 }
 
-ExitCode compare_results(const Options& o) {
+ExitCode compare_results(const CompareOptions& o) {
   const Agreements all = agreements(store::read_results(o.before), store::read_results(o.after), o.same);
   if (o.format == "text") {
     print(all, o.all);
@@ -151,7 +151,7 @@ ExitCode compare_results(const Options& o) {
   return ExitCode::done;
 }
 
-ExitCode compare_traces(const Options& o) {
+ExitCode compare_traces(const CompareOptions& o) {
   if (!o.same.empty())
     throw InputError("--same: two traces have no budgets to compare", "", "compare results of gumshoe run");
   const store::StoredTrace before = store::read_trace(o.before), after = store::read_trace(o.after);
@@ -197,7 +197,7 @@ ExitCode compare_traces(const Options& o) {
   return ExitCode::done;
 }
 
-ExitCode compare(const Options& o) {
+ExitCode compare(const CompareOptions& o) {
   const bool before = is_trace(o.before), after = is_trace(o.after);
   if (before != after)
     throw InputError("a trace and a result of measurands cannot be compared",
@@ -209,7 +209,7 @@ ExitCode compare(const Options& o) {
 
 void add_compare(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("compare", "compares two results of the same measurands, or two traces");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CompareOptions>();
   command->add_option("before", o->before, "result file (HDF5)")->required();
   command->add_option("after", o->after, "result file (HDF5) of the same kind")->required();
   command->add_option("--same", o->same, "quantities that have one error in both results, such as a certificate's")

@@ -15,7 +15,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct CompensateOptions {
   std::string scenario, out, resolution, step, reference;
   calibration::CompensationRequest of;
   calibration::CompensationChoice choice;
@@ -84,7 +84,7 @@ void print_travel(const calibration::Compensation& of, const calibration::Applie
   std::cerr << '\n';
 }
 
-ExitCode compensate(Options o) {
+ExitCode compensate(CompensateOptions o) {
   scenario::Scenario s = scenario::read(o.scenario, catalogue());
   if (o.unconfirmed) s.trace.unconfirmed.clear();
   const propagation::Experiment experiment(s);
@@ -132,7 +132,7 @@ void require_place(const CLI::App& command, const std::string& format) {
 void add_compensate(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("compensate", "writes what a control can correct, of a scenario that trace or estimate wrote");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CompensateOptions>();
   std::vector<std::string> formats;
   std::string meanings;
   for (const auto& f : calibration::compensation_formats()) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/fields_json.h"
 #include "analysis/rounding.h"
 #include "base/units.h"
 #include "calibration/estimated_scenario.h"
@@ -17,16 +18,15 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct EstimateOptions {
   std::string file, scenario_out, format = "text";
   int threads = 0;
   bool force = false;
 };
 
+using analysis::Json;
+using analysis::number;
 using calibration::Estimate;
-using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 double shown(double si, const calibration::Unknown& u, units::Kind kind) {
   return units::from_si(si, u.unit, u.si_unit, kind);
@@ -178,7 +178,7 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
   if (!written.empty()) std::cout << "written: " << written << '\n';
 }
 
-ExitCode estimate(const Options& o) {
+ExitCode estimate(const EstimateOptions& o) {
   const scenario::Scenario s = scenario::read(o.file, catalogue());
   const propagation::Experiment experiment(s);
   const std::string out = !o.scenario_out.empty() ? o.scenario_out : default_output(o.file, ".estimated.toml");
@@ -213,7 +213,7 @@ ExitCode estimate(const Options& o) {
 
 void add_estimate(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("estimate", "fits the quantities marked estimated to the readings");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<EstimateOptions>();
   command->add_option("scenario", o->file, "scenario file (TOML)")->required();
   command->add_option("--scenario-out", o->scenario_out,
                       "scenario file for the estimates (default: results/SCENARIO.estimated.toml)");

@@ -5,19 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "base/csv.h"
 #include "cli/command.h"
 #include "propagation/point_table.h"
 
 namespace gumshoe::cli {
 
 namespace {
-
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + '"';
-}
 
 std::string to_csv(const Csv& in, const propagation::PointTable& added) {
   std::string text;
@@ -28,11 +22,11 @@ std::string to_csv(const Csv& in, const propagation::PointTable& added) {
       text += added.status[0] == "ok" ? fmt::format("{:.15g},", column[0]) : "nan,";
     return text + added.status[0] + '\n';
   }
-  for (const CsvCell& cell : in.header) text += quoted(cell.text) + ',';
+  for (const CsvCell& cell : in.header) text += csv_cell(cell.text) + ',';
   for (const std::string& name : added.header) text += name + ',';
   text += "status\n";
   for (std::size_t r = 0; r < in.rows.size(); ++r) {
-    for (const CsvCell& cell : in.rows[r]) text += quoted(cell.text) + ',';
+    for (const CsvCell& cell : in.rows[r]) text += csv_cell(cell.text) + ',';
     for (const auto& column : added.columns)
       text += added.status[r] == "ok" ? fmt::format("{:.15g},", column[r]) : "nan,";
     text += added.status[r] + '\n';

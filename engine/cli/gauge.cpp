@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One figure compared.
-struct Line {
+struct GaugeLine {
   std::string verdict; ///< PASS, DIFF or NOTE
   std::string example, figure, published, ours, tolerance, why, source, note;
 };
@@ -67,8 +67,8 @@ std::pair<double, std::string> tolerance_of(const scenario::Expected& e, double 
   return {given + 4 * standard_error, why};
 }
 
-Line compare(const scenario::Expected& e, const analysis::Figure& f, const std::string& example) {
-  Line line{"", example, e.figure + (e.of.empty() ? "" : " of " + e.of), e.value, "", "", "", e.source, e.note};
+GaugeLine compare(const scenario::Expected& e, const analysis::Figure& f, const std::string& example) {
+  GaugeLine line{"", example, e.figure + (e.of.empty() ? "" : " of " + e.of), e.value, "", "", "", e.source, e.note};
   bool equal = false;
   if (!f.word.empty()) {
     line.ours = f.word;
@@ -103,8 +103,8 @@ std::size_t output_of(const scenario::Expected& e, const analysis::Results& r) {
 
 /// Compares every expected figure with the one that `find` gives; its errors are located at the figure.
 template <class Find>
-std::vector<Line> compare_all(const scenario::Scenario& s, const std::string& example, const Find& find) {
-  std::vector<Line> lines;
+std::vector<GaugeLine> compare_all(const scenario::Scenario& s, const std::string& example, const Find& find) {
+  std::vector<GaugeLine> lines;
   for (const auto& e : s.expected) {
     try {
       lines.push_back(compare(e, find(e), example));
@@ -117,7 +117,7 @@ std::vector<Line> compare_all(const scenario::Scenario& s, const std::string& ex
   return lines;
 }
 
-std::vector<Line> run_example(const std::string& file, int threads) {
+std::vector<GaugeLine> run_example(const std::string& file, int threads) {
   scenario::Scenario s = scenario::read(file, catalogue());
   const std::string example = fs::path(file).stem().string();
   if (s.expected.empty())
@@ -144,7 +144,7 @@ std::vector<Line> run_example(const std::string& file, int threads) {
                      [&](const auto& e) { return analysis::figure(results, output_of(e, results), e.figure); });
 }
 
-void print(const Line& l) {
+void print(const GaugeLine& l) {
   std::cout << fmt::format("{} {}: {}: published {}{}, ours {}{}{}\n", l.verdict, l.example, l.figure, l.published,
                            l.source.empty() ? "" : " (" + l.source + ")", l.ours,
                            l.tolerance.empty() ? "" : fmt::format(", tolerance {} ({})", l.tolerance, l.why),
@@ -176,7 +176,7 @@ ExitCode gauge(const std::vector<std::string>& asked, int threads, bool json) {
   std::size_t passed = 0, different = 0, noted = 0;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : examples(asked))
-    for (const Line& l : run_example(file, threads)) {
+    for (const GaugeLine& l : run_example(file, threads)) {
       ++(l.verdict == "PASS" ? passed : l.verdict == "NOTE" ? noted : different);
       if (!json) print(l);
       all.push_back({{"verdict", l.verdict},

@@ -14,7 +14,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> files;
   std::string scenario, out;
   PrintOptions print;
@@ -23,7 +23,7 @@ struct Options {
 };
 
 /// The scenario must be, with its data, the one that the shards were made of.
-scenario::Scenario scenario_of(const store::Identity& shard, const std::string& other) {
+scenario::Scenario scenario_of_shards(const store::Identity& shard, const std::string& other) {
   const auto read = shard.command == choice_shard_command ? &scenario_of_choice : &scenario_of_run;
   scenario::Scenario s =
       read(other.empty() ? shard.scenario_file : other, RunRequest::of(shard.options), {.external = shard.external});
@@ -52,10 +52,10 @@ void require_same_design(const propagation::Experiment& experiment, const store:
   }
 }
 
-ExitCode merge(const Options& o) {
+ExitCode merge(const MergeOptions& o) {
   const Begun begun;
   const ShardSet shards = gather_shards(o.files);
-  const scenario::Scenario s = scenario_of(shards.identity, o.scenario);
+  const scenario::Scenario s = scenario_of_shards(shards.identity, o.scenario);
   if (shards.identity.command == choice_shard_command) {
     const std::string out = choice_output(o.out, s.file, "");
     return complete_choice(s, workers_of_choice(s, shards, o.threads), out, o.print.format, o.force);
@@ -82,7 +82,7 @@ ExitCode merge(const Options& o) {
 
 void add_merge(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("merge", "joins the shards of a run or a choice and writes its result file");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MergeOptions>();
   command->add_option("shards", o->files, "files of gumshoe run --shard or gumshoe choose --shard, in any order")
       ->required();
   command->add_option("--scenario", o->scenario, "instead of the place that the shards name; the same scenario");

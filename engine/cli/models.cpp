@@ -176,7 +176,7 @@ ExitCode show(const Cards& cards, const std::string& word, const std::string& na
   return ExitCode::done;
 }
 
-struct Options {
+struct ModelsOptions {
   std::string name, format = "text";
 };
 
@@ -184,7 +184,7 @@ template <class Body>
 void add(CLI::App& app, const char* name, const char* help, const std::vector<std::string>& formats, Action& action,
          Body body) {
   auto* command = app.add_subcommand(name, help);
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ModelsOptions>();
   command->add_option("name", o->name, "one of them, in full");
   command->add_option("--format", o->format, fmt::format("{}", fmt::join(formats, " or ")))
       ->check(CLI::IsMember(formats));
@@ -195,7 +195,7 @@ void add(CLI::App& app, const char* name, const char* help, const std::vector<st
 
 void add_models(CLI::App& app, Action& action) {
   add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
-      {"text", "json"}, action, [](const Options& o) {
+      {"text", "json"}, action, [](const ModelsOptions& o) {
         const auto made = scenario::made_models();
         if (std::ranges::find(made, o.name, &scenario::MadeModelRow::name) != made.end())
           throw InputError("'" + o.name + "' has no card", "the scenario defines its quantities",
@@ -210,7 +210,7 @@ void add_models(CLI::App& app, Action& action) {
 }
 void add_effects(CLI::App& app, Action& action) {
   add(app, "effects", "lists the effects, or one effect's card", {"text", "json", "markdown"}, action,
-      [](const Options& o) {
+      [](const ModelsOptions& o) {
         if (o.format != "markdown") return show(effects::cards(), "effect", o.name, o.format);
         if (!o.name.empty()) throw InputError("markdown is a table of all effects", "", "leave the name out");
         std::cout << effects_markdown(catalogue().models, effects::cards());

@@ -30,7 +30,7 @@ using scenario::RecognisedData;
 
 constexpr std::size_t largest_file = std::size_t{256} << 20;
 
-struct Options {
+struct NewOptions {
   std::string model, from, form, out, machine;
   std::vector<std::string> units, roles, terms;
   bool force = false;
@@ -46,7 +46,7 @@ std::vector<std::string> names() {
 
 bool on_terminal() { return isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0; }
 
-std::string asked(const std::string& question) {
+std::string answer_to(const std::string& question) {
   std::cout << question << ' ' << std::flush;
   std::string answer;
   std::getline(std::cin, answer);
@@ -82,7 +82,7 @@ ColumnRole role_of(const std::string& word) {
 }
 
 /// What the options say of columns, then what a user at the terminal answers.
-void tell(RecognisedData& data, const Options& o) {
+void tell(RecognisedData& data, const NewOptions& o) {
   bool told_readings = false;
   for (const std::string& text : o.roles) {
     const auto [column, word] = assignment(text, "--role");
@@ -107,7 +107,7 @@ void tell(RecognisedData& data, const Options& o) {
   for (auto& c : data.columns) {
     if (c.unit != "?" || c.role == ColumnRole::other) continue;
     const std::string unit =
-        asked(fmt::format("unit of the column '{}' ({}), such as mm; empty: decide later:", c.name, name(c.role)));
+        answer_to(fmt::format("unit of the column '{}' ({}), such as mm; empty: decide later:", c.name, name(c.role)));
     if (unit.empty()) continue;
     c.unit_told = units::convertible(unit, units::si_unit_of(unit));
     c.unit = c.unit_told ? unit : "?";
@@ -132,7 +132,7 @@ std::string text_of_model(const std::string& name, const scenario::StarterData* 
   return scenario::starter_model(*read.made->card, text, data);
 }
 
-std::string text_of(const Options& o, const RecognisedData* found, const std::string& out) {
+std::string text_of(const NewOptions& o, const RecognisedData* found, const std::string& out) {
   std::unique_ptr<scenario::StarterData> data;
   if (found)
     data = std::make_unique<scenario::StarterData>(scenario::StarterData{
@@ -166,7 +166,7 @@ void write_file(const std::string& path, const std::string& text, bool force) {
 
 /// A description of logs: a file of the user's, or the name of one that is shipped, which is then copied next to the
 /// scenario.
-std::string description_of(const Options& o, const fs::path& folder) {
+std::string description_of(const NewOptions& o, const fs::path& folder) {
   const fs::path shipped = fs::path(data_folder("scenarios", GUMSHOE_SCENARIOS_DIR)) / "forms";
   if (fs::is_regular_file(o.form)) return o.form;
   std::vector<std::string> known;
@@ -187,7 +187,7 @@ std::string description_of(const Options& o, const fs::path& folder) {
 }
 
 /// The data file as a table. @param out  the scenario
-RecognisedData table_of(const Options& o, const std::string& out) {
+RecognisedData table_of(const NewOptions& o, const std::string& out) {
   const std::string text = read_data_file(o.from, largest_file);
   if (o.form.empty()) return scenario::recognise(text, o.from);
   const std::string form = description_of(o, fs::path(out).parent_path());
@@ -200,7 +200,7 @@ bool another_reading(const RecognisedData& found, const scenario::RecognisedColu
   const auto* reading = found.find(ColumnRole::reading);
   return reading && reading->basis == scenario::Basis::place && c.number && c.role == ColumnRole::other &&
          c.unit != "1" && !scenario::counts_rows(c) && !scenario::names_parts(c) && !scenario::is_circumstance(c) &&
-         text.find(scenario::quoted(c.name)) == std::string::npos;
+         text.find(scenario::toml_string(c.name)) == std::string::npos;
 }
 
 /// The name of a column in the scenario where its own means something else in formulas; else empty.
@@ -221,7 +221,7 @@ bool uses(const std::string& text, const std::string& quoted) {
 /// What the scenario does with each column.
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
-    const std::string quoted = scenario::quoted(c.name);
+    const std::string quoted = scenario::toml_string(c.name);
     const bool used = uses(text, quoted);
     const char* use = !used                                                    ? "not used"
                       : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
@@ -240,7 +240,7 @@ void print_columns(const RecognisedData& found, const std::string& text) {
 
 /// Reads what was written: what is missing, or which command comes next.
 /// @param found  null: no data file
-void print_next(const Options& o, const std::string& out, const RecognisedData* found) {
+void print_next(const NewOptions& o, const std::string& out, const RecognisedData* found) {
   try {
     const auto s = scenario::read(out, catalogue());
     if (s.made && !s.made->card->axes.empty() && o.machine.empty())
@@ -261,10 +261,10 @@ void print_next(const Options& o, const std::string& out, const RecognisedData* 
   }
 }
 
-ExitCode run(Options o) {
+ExitCode run(NewOptions o) {
   if (o.model.empty() && o.from.empty() && on_terminal()) {
-    o.model = asked(fmt::format("model ({}), empty for a data file:", fmt::join(names(), ", ")));
-    o.from = asked("data file, empty for none:");
+    o.model = answer_to(fmt::format("model ({}), empty for a data file:", fmt::join(names(), ", ")));
+    o.from = answer_to("data file, empty for none:");
   }
   if (o.model.empty() && o.from.empty())
     throw InputError("neither a model nor a data file is named", "",
@@ -281,7 +281,7 @@ ExitCode run(Options o) {
     throw InputError("--machine: only a sphere's readings are started on a machine of yours", "",
                      "write gumshoe new sphere_probing --from FILE --machine B,C/X,Y,Z");
   if (on_terminal() && o.model == "sphere_probing" && !o.from.empty() && o.machine.empty())
-    o.machine = asked("axes from the bed to the workpiece / to the tool, such as B,C/X,Y,Z; empty: decide later:");
+    o.machine = answer_to("axes from the bed to the workpiece / to the tool, such as B,C/X,Y,Z; empty: decide later:");
   if (!o.form.empty() && o.from.empty())
     throw InputError("--form: there is no log that it would describe", "", "name the log by --from");
   const std::string out =
@@ -311,7 +311,7 @@ ExitCode run(Options o) {
 
 void add_new(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("new", "writes a first scenario: of a model, of a data file, or a budget");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<NewOptions>();
   command->add_option("model", o->model,
                       "a model (gumshoe models), budget, or linear; without one, --from asks what a data file shows");
   command->add_option("--from", o->from, "data file whose columns are recognised");

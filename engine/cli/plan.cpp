@@ -13,13 +13,13 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct PlanOptions {
   std::string file, data, out, format = "text";
   int threads = 0, verify = 0;
   bool force = false;
 };
 
-ExitCode plan(const Options& o) {
+ExitCode plan(const PlanOptions& o) {
   const scenario::Scenario s = scenario::read(o.file, catalogue(), {o.data});
   if (!s.plan)
     throw InputError({{{s.file},
@@ -40,7 +40,7 @@ ExitCode plan(const Options& o) {
 
 void add_plan(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("plan", "finds the further readings that reach a goal at least cost ([plan])");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<PlanOptions>();
   command->add_option("scenario", o->file, "scenario file (TOML) with [plan]")->required();
   command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
   command->add_option("-o,--out", o->out,

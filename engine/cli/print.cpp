@@ -20,7 +20,8 @@ namespace gumshoe::cli {
 namespace {
 using namespace analysis;
 
-constexpr std::size_t most = 12; ///< outputs of one measurand, comparisons, notes: beyond that a line tells of all
+constexpr std::size_t most_lines =
+    12; ///< outputs of one measurand, comparisons, notes: beyond that a line tells of all
 
 double point(const propagation::Output& o, double x) { return units::from_si(x, o.unit, o.si_unit); }
 
@@ -46,8 +47,8 @@ void print_validations(const Results& r) {
   }
   for (const auto& [kind, text, largest, outputs] : lines) {
     std::string names;
-    for (std::size_t i = 0; i < std::min(most, outputs.size()); ++i) names += (i == 0 ? "" : ", ") + outputs[i];
-    if (outputs.size() > most) names = fmt::format("{} outputs", outputs.size());
+    for (std::size_t i = 0; i < std::min(most_lines, outputs.size()); ++i) names += (i == 0 ? "" : ", ") + outputs[i];
+    if (outputs.size() > most_lines) names = fmt::format("{} outputs", outputs.size());
     std::cout << fmt::format("GUM framework against Monte Carlo (JCGM 101 clause 8): {}: {}\n", text, names);
   }
 }
@@ -166,7 +167,7 @@ std::set<std::string> print_outputs(const Results& r, const PrintOptions& option
   std::set<std::string> printed;
   for (const std::string& name : order) {
     const auto& outputs = measurands[name];
-    if (outputs.size() > most && !options.all) {
+    if (outputs.size() > most_lines && !options.all) {
       print_range(r, outputs, options.budget);
       continue;
     }
@@ -181,7 +182,7 @@ std::set<std::string> print_outputs(const Results& r, const PrintOptions& option
 }
 
 void print_comparisons(const Results& r, bool all) {
-  if (r.comparisons.size() > most && !all) {
+  if (r.comparisons.size() > most_lines && !all) {
     const auto size = [](const ComparisonResult& c) { return std::fabs(c.normalised_error); };
     const auto largest = std::ranges::max_element(r.comparisons, {}, size);
     std::cout << fmt::format("{} comparisons: |E_n| exceeds 1 in {}; the largest: {}, E_n = {:.2f}\n",
@@ -199,7 +200,7 @@ void print_comparisons(const Results& r, bool all) {
 }
 
 void print_published(const Results& r, bool all) {
-  if (r.printed.size() > most && !all) {
+  if (r.printed.size() > most_lines && !all) {
     const auto size = [](const PrintedResult& p) { return std::fabs(p.ours - p.printed) / p.expanded_uncertainty; };
     const auto largest = std::ranges::max_element(r.printed, {}, size);
     std::cout << fmt::format("{} printed figures: the largest difference is {:.2g} U, of {}\n", r.printed.size(),
@@ -234,7 +235,7 @@ void print_text(const Results& r, const std::string& file, const PrintOptions& o
   print_published(r, options.all);
   print_predicted(r);
   for (std::size_t i = 0; i < r.notes.size(); ++i) {
-    if (i == most && r.notes.size() > most + 1 && !options.all) {
+    if (i == most_lines && r.notes.size() > most_lines + 1 && !options.all) {
       std::cout << fmt::format("note: {} more notes are in the result file\n", r.notes.size() - i);
       break;
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/fields_json.h"
+#include "base/csv.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "quantities/cells.h"
@@ -22,13 +23,6 @@ using scenario::AllowedReading;
 using scenario::PlanColumn;
 using tracing::GoalReached;
 using tracing::Planned;
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
 
 std::string cell(const PlanColumn& column, const AllowedReading& reading) {
   if (column.holds == PlanColumn::Holds::nothing) return "";

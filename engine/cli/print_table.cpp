@@ -13,14 +13,14 @@ namespace gumshoe::cli {
 namespace {
 using namespace analysis;
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
 }
 
 /// One line of a CSV table: names in the first pass, then values.
-struct Line {
+struct CsvLine {
   std::string text;
   bool head = false, begun = false;
   void add(const std::string& name, const std::string& value) {
@@ -30,7 +30,7 @@ struct Line {
 };
 
 template <class Row>
-void add_cells(Line& line, const Fields<Row>& fields, const Row& row, const propagation::Output& output,
+void add_cells(CsvLine& line, const Fields<Row>& fields, const Row& row, const propagation::Output& output,
                const std::string& prefix = {}, std::string_view Shown::*shown_as = &Shown::csv) {
   const RowUnit unit = unit_of(row), of_output{output.unit, output.si_unit};
   for (const auto& field : fields.list) {
@@ -46,7 +46,7 @@ void add_cells(Line& line, const Fields<Row>& fields, const Row& row, const prop
               cell = fmt::format("{:.{}g}", converted(value, field.unit, unit, of_output),
                                  field.unit.in == In::point ? 15 : 6);
             else if constexpr (std::is_same_v<T, std::string>)
-              cell = quoted(value);
+              cell = in_quotes(value);
             else
               cell = fmt::format("{}", value);
           },
@@ -119,7 +119,7 @@ void print_csv(const Results& r, bool budget) {
   const auto print = [&](const auto& add) {
     for (const bool head : {true, false}) {
       if (head && headed) continue;
-      Line text{{}, head};
+      CsvLine text{{}, head};
       add(text);
       std::cout << text.text << '\n';
     }
@@ -128,7 +128,7 @@ void print_csv(const Results& r, bool budget) {
   for (std::size_t o = 0; o < r.summaries.size(); ++o) {
     const propagation::Output& output = r.summaries[o].output;
     if (!budget)
-      print([&](Line& text) {
+      print([&](CsvLine& text) {
         add_cells(text, summary_fields, r.summaries[o], output);
         text.add("coverage_probability", fmt::format("{}", r.coverage_probability));
         add_cells(text, budget_fields, r.budgets[o], output, "gum_", &Shown::json);
@@ -136,8 +136,8 @@ void print_csv(const Results& r, bool budget) {
       });
     else
       for (const Contribution& c : r.budgets[o].contributions)
-        print([&](Line& text) {
-          text.add("output", quoted(output.name));
+        print([&](CsvLine& text) {
+          text.add("output", in_quotes(output.name));
           add_cells(text, contribution_fields, c, output);
         });
   }

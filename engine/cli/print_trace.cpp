@@ -19,7 +19,7 @@ namespace {
 
 using namespace tracing;
 
-constexpr std::size_t listed = 12; // candidates and detection limits; the result file has all
+constexpr std::size_t most_listed = 12; // candidates and detection limits; the result file has all
 
 std::string with_unit(const std::string& text, const std::string& unit) { return text + units::suffix(unit); }
 
@@ -41,11 +41,11 @@ std::string size_text(const SizedQuantity& q) {
   return text;
 }
 
-/// Figures in the unit of the root mean squares, or in another.
-struct Figures {
+/// RmsFigures in the unit of the root mean squares, or in another.
+struct RmsFigures {
   std::string unit, si_unit;
-  Figures(std::string u, std::string si) : unit(std::move(u)), si_unit(std::move(si)) {}
-  explicit Figures(const Rms& r) : unit(unit_of(r)), si_unit(r.si_unit) {}
+  RmsFigures(std::string u, std::string si) : unit(std::move(u)), si_unit(std::move(si)) {}
+  explicit RmsFigures(const Rms& r) : unit(display_unit(r)), si_unit(r.si_unit) {}
   std::string show(double si) const {
     return std::isfinite(si) ? two_digits(units::from_si(si, unit, si_unit, units::Kind::difference)) : "-";
   }
@@ -87,7 +87,7 @@ void print_finding(const Finding& f, bool vetoed) {
 
 /// @param cells  sets of equal conditions; one alone has readings that differ in nothing that was set
 void print_rms(const Rms& r, int cells) {
-  const Figures figures(r);
+  const RmsFigures figures(r);
   const auto show = [&](double si) { return figures.show(si); };
   const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
     if (std::isfinite(before) || std::isfinite(after))
@@ -121,7 +121,7 @@ void print_rms(const Rms& r, int cells) {
 }
 
 void print_repeats(const Trace& t) {
-  const Figures figures(t.rms);
+  const RmsFigures figures(t.rms);
   if (const LackOfFit& l = t.lack_of_fit; std::isfinite(l.p_value) && (l.found || l.cells > 1))
     std::cout << fmt::format("lack of fit: {}, p = {} ({} set{} of equal conditions)\n",
                              l.found ? fmt::format("what repeats and is not explained is {}, by {}",
@@ -131,21 +131,21 @@ void print_repeats(const Trace& t) {
   for (const AnomalousBlock& b : t.anomalous_blocks)
     std::cout << fmt::format("{} differs: scatter {}, of the other blocks {}, p = {}\n", b.name,
                              figures.with_unit(b.spread), figures.with_unit(b.others), probability(b.p_value));
-  for (std::size_t i = 0; i < std::min(listed, t.outliers.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_listed, t.outliers.size()); ++i) {
     const Outlier& o = t.outliers[i];
-    std::cout << fmt::format("outlier: {}{}, residual {}, weight {:.2f}\n", o.reading,
-                             t.rows.size() > 0 && t.rows.back().indication > 0 ? ", " + o.indication : "",
-                             (o.si_unit == t.rms.si_unit ? figures : Figures(o.unit, o.si_unit)).with_unit(o.residual),
-                             o.weight);
+    std::cout << fmt::format(
+        "outlier: {}{}, residual {}, weight {:.2f}\n", o.reading,
+        t.rows.size() > 0 && t.rows.back().indication > 0 ? ", " + o.indication : "",
+        (o.si_unit == t.rms.si_unit ? figures : RmsFigures(o.unit, o.si_unit)).with_unit(o.residual), o.weight);
   }
-  if (t.outliers.size() > listed)
-    std::cout << fmt::format("(and {} more outliers in the result file)\n", t.outliers.size() - listed);
+  if (t.outliers.size() > most_listed)
+    std::cout << fmt::format("(and {} more outliers in the result file)\n", t.outliers.size() - most_listed);
 }
 
 void print_candidates(const std::vector<RankedCandidate>& candidates) {
   if (candidates.empty()) return;
   std::size_t width = 9;
-  const std::size_t n = std::min(listed, candidates.size());
+  const std::size_t n = std::min(most_listed, candidates.size());
   for (std::size_t i = 0; i < n; ++i) width = std::max(width, candidates[i].name.size());
   std::cout << fmt::format("{:<{}}  {:>9}  {:>9}  {:>6}  outcome\n", "candidate", width, "2 ln L", "p alone", "left");
   for (std::size_t i = 0; i < n; ++i) {
@@ -161,17 +161,18 @@ void print_candidates(const std::vector<RankedCandidate>& candidates) {
 void print_limits(const std::vector<DetectionLimit>& limits) {
   if (limits.empty()) return;
   std::cout << "detectable in nine cases of ten from\n";
-  for (std::size_t i = 0; i < std::min(listed, limits.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_listed, limits.size()); ++i) {
     const ShownSize s = shown(limits[i]);
     const std::string size =
         std::isfinite(s.value) ? with_unit(two_digits(s.value), s.unit) : "undetectable in these data";
     std::cout << fmt::format("  {}, {}: {}\n", limits[i].effect, limits[i].quantity, size);
   }
-  if (limits.size() > listed) std::cout << fmt::format("({} more in the result file)\n", limits.size() - listed);
+  if (limits.size() > most_listed)
+    std::cout << fmt::format("({} more in the result file)\n", limits.size() - most_listed);
 }
 
 void print_noise(const Noise& n, const Rms& r) {
-  const Figures figures(r);
+  const RmsFigures figures(r);
   std::string text = n.declared ? n.scale == 1 ? "as declared" : fmt::format("{:.3g} times as declared", n.scale)
                                 : figures.with_unit(n.scale) + " of a reading, from the residuals";
   if (n.correlation != 0) text += fmt::format(", correlation from reading to reading {:.2f}", n.correlation);

@@ -19,7 +19,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string file, out, shard;
   RunRequest request;
   PrintOptions print;
@@ -67,11 +67,11 @@ struct RankRun {
   scenario::Scenario scenario;
   propagation::Experiment experiment;
   std::vector<propagation::Work> studies;
-  explicit RankRun(const Options& o)
+  explicit RankRun(const RunOptions& o)
       : scenario(scenario_of_run(o.file, o.request)), experiment(scenario), studies(analysis::studies_of(experiment)) {}
 };
 
-Offer offer(const Options& o) {
+Offer offer(const RunOptions& o) {
   const auto run = std::make_shared<const RankRun>(o);
   return {same_run(identity_of_run(run->experiment)),
           {propagation::block_maker(run->experiment), [run](const std::string& name) {
@@ -100,7 +100,7 @@ void require_same_model(const propagation::Experiment& e, const store::ResultFil
                      "restore what the model was then, or remove the file to start again");
 }
 
-ExitCode run(const Options& o) {
+ExitCode run(const RunOptions& o) {
   const Begun begun;
   auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
   if (ranks && !ranks->first()) return help_first_rank(*ranks, o.threads, [&] { return offer(o); });
@@ -156,7 +156,7 @@ ExitCode run(const Options& o) {
 
 void add_run(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("run", "runs a scenario and writes its result file");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RunOptions>();
   command->add_option("scenario", o->file, "scenario file (TOML)")->required();
   command->add_option("--samples", o->request.samples, "instead of the scenario's, e.g. 1e6");
   command->add_option("--seed", o->request.seed, "instead of the scenario's");

@@ -26,7 +26,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct TraceOptions {
   std::string file, data, out, json, report, history, format = "text";
   std::optional<std::string> draws, seed;
   int threads = 0, loop = 1;
@@ -34,7 +34,7 @@ struct Options {
 };
 
 /// The scenario with what the command line says otherwise.
-scenario::Scenario asked(const Options& o) {
+scenario::Scenario asked(const TraceOptions& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue(), {o.data});
   if (o.draws)
     s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19, "999"), 1'000'000));
@@ -48,7 +48,7 @@ struct Outputs {
   store::Claim result, scenario, json, report;
 };
 
-Outputs claimed_outputs(const Options& o, const scenario::Scenario& s) {
+Outputs claimed_outputs(const TraceOptions& o, const scenario::Scenario& s) {
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".traced.h5");
   const std::filesystem::path name = std::filesystem::path(o.file).stem();
   const std::string scenario = (std::filesystem::path(out).parent_path() / name).string() + ".traced.toml";
@@ -96,7 +96,7 @@ std::string signed_verdict(const Rounds& rounds, const History& history, const s
   return verdict.dump(2) + '\n';
 }
 
-ExitCode trace(const Options& o) {
+ExitCode trace(const TraceOptions& o) {
   // Matrices of megabytes come and go by the thousand: their pages are kept.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
@@ -141,7 +141,7 @@ ExitCode trace(const Options& o) {
 
 void add_trace(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("trace", "finds what is missing from the model, from the residuals ([trace])");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<TraceOptions>();
   command->add_option("scenario", o->file, "scenario file (TOML) with readings")->required();
   command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
   command->add_option("-o,--out", o->out, "result file (default: results/SCENARIO.traced.h5)");

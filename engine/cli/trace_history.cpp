@@ -16,7 +16,7 @@
 namespace gumshoe::cli {
 namespace {
 
-constexpr std::size_t most = 5; ///< effects that the text lists; the file has all
+constexpr std::size_t most_effects = 5; ///< effects that the text lists; the file has all
 
 double shown(double si, const tracing::ScoredSize& s) {
   return units::from_si(si, s.unit, s.si_unit, units::Kind::difference);
@@ -138,7 +138,7 @@ std::string History::text(double alpha) const {
       fmt::format("evidence over {} campaign{} in {}, valid whenever one looks, the search for {} effects allowed for "
                   "(shown at {:.0f} to 1):\n",
                   evidence_.campaigns, evidence_.campaigns == 1 ? "" : "s", path_, evidence_.effects.size(), 1 / alpha);
-  for (std::size_t i = 0; i < std::min(most, evidence_.effects.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most_effects, evidence_.effects.size()); ++i) {
     const auto& e = evidence_.effects[i];
     out +=
         fmt::format("  {} to 1 for {}{}{}\n", odds(e.log_evidence), e.candidate,

@@ -18,7 +18,7 @@ namespace gumshoe::cli {
 
 namespace {
 
-struct Options {
+struct VolumeOptions {
   std::string file, out, format = "text";
   std::optional<std::string> samples, seed;
   int threads = 0;
@@ -59,7 +59,7 @@ void print_text(const analysis::VolumeMap& map, const std::string& file) {
   std::cout << fmt::format("{} points, {} samples, seed {}: {}\n", map.points.size(), map.samples, map.seed, file);
 }
 
-ExitCode volume(const Options& o) {
+ExitCode volume(const VolumeOptions& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   scenario::Volume over = scenario::volume_of(s);
   if (o.samples) over.samples = whole_number(*o.samples, "--samples", 100, "1e4");
@@ -84,7 +84,7 @@ ExitCode volume(const Options& o) {
 void add_volume(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand(
       "volume", "maps the error of the tool's place and its uncertainty over a working volume ([volume])");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<VolumeOptions>();
   command->add_option("scenario", o->file, "scenario file (TOML) with [machine] and [volume]")->required();
   command->add_option("--samples", o->samples, "instead of the scenario's, e.g. 1e4");
   command->add_option("--seed", o->seed, "instead of the scenario's");

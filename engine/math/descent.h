@@ -16,7 +16,7 @@ struct Descent {
   int rows = 0, parameters = 0;
   const double *low = nullptr, *high = nullptr; ///< [parameters], infinite where free
   /// Residuals r[rows] at z and, unless null, jacobian[rows][parameters]. False: not defined there.
-  std::function<bool(const double* z, double* r, double* jacobian)> evaluate;
+  std::function<bool(const double* z, double* r, double* jacobian)> evaluate = {};
 };
 
 struct Descended {

@@ -1,7 +1,8 @@
 #include "math/rows.h"
 
 #include <cmath>
-#include <limits>
+
+#include "base/special_values.h"
 
 namespace gumshoe::least_squares {
 namespace {
@@ -29,7 +30,6 @@ Rows::Rows(const Problem& problem)
     : problem_(problem), n_(static_cast<Eigen::Index>(problem.residuals)),
       m_(static_cast<Eigen::Index>(problem.prior_target.size())), p_(static_cast<Eigen::Index>(problem.parameters)),
       magnitude_(p_), low_(p_), high_(p_) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index j = 0; j < p_; ++j) {
     const auto i = static_cast<std::size_t>(j);
     const double own = std::fabs(problem.start[i]);

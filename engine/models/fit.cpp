@@ -19,7 +19,7 @@ struct Row {
   FitFunction fit;
 };
 #define GUMSHOE_MODEL(folder, type) {&folder::model, &folder::fit_of},
-const Row table[] = {
+const Row fits[] = {
 #include "models/catalogue.def"
 };
 #undef GUMSHOE_MODEL
@@ -27,8 +27,8 @@ const Row table[] = {
 } // namespace
 
 FitFunction fit_function(const Model& model) {
-  const auto row = std::ranges::find(table, &model, &Row::model);
-  return row == std::end(table) ? nullptr : row->fit;
+  const auto row = std::ranges::find(fits, &model, &Row::model);
+  return row == std::end(fits) ? nullptr : row->fit;
 }
 
 } // namespace gumshoe::models

@@ -9,7 +9,7 @@ namespace gumshoe::models {
 
 namespace {
 
-constexpr char letters[] = "XYZ", turns[] = "ABC";
+constexpr char slide_letters[] = "XYZ", turn_letters[] = "ABC";
 
 /// Data of a made model, to which Model::context points: the axes come first.
 struct OnMachine : chain::TwoRotaryAxes {
@@ -39,7 +39,8 @@ std::string fit(const chain::Machine& machine, std::string_view model, std::vect
   }
   for (std::size_t d = 0; d < 3; ++d)
     if (slides[d] != 1)
-      return fmt::format("{} along {}, and {} moves one", slides[d] == 0 ? "no slide" : "two slides", letters[d], model);
+      return fmt::format("{} along {}, and {} moves one", slides[d] == 0 ? "no slide" : "two slides", slide_letters[d],
+                         model);
   if (rotary.size() != 2) return fmt::format("the number of rotary axes is {}, and {} has two", rotary.size(), model);
   if (axes[rotary[0]].direction == axes[rotary[1]].direction)
     return fmt::format("the axes {} and {} are parallel, and {} needs two directions", axes[rotary[0]].name,
@@ -50,24 +51,26 @@ std::string fit(const chain::Machine& machine, std::string_view model, std::vect
 /// The card's rows by the names of these axes.
 std::vector<Renamed> renamed(const chain::TwoRotaryAxes& axes, const std::string& first, const std::string& second) {
   const auto i = [](int direction) { return static_cast<std::size_t>(direction); };
-  const char n = letters[i(axes.across())], about_n = turns[i(axes.across())];
-  const char u = letters[i(axes.first.direction)], v = letters[i(axes.second.direction)];
+  const char n = slide_letters[i(axes.across())], about_n = turn_letters[i(axes.across())];
+  const char u = slide_letters[i(axes.first.direction)], v = slide_letters[i(axes.second.direction)];
   const auto position = [&](char along, const std::string& axis) {
     return Renamed{"", fmt::format("E_{}0{}", along, axis), fmt::format("position of the {} axis along {}", axis, along)};
   };
   std::vector<Renamed> rows{position(n, first), position(u, second), position(v, first)};
   rows[0].from = "E_X0B", rows[1].from = "E_Y0C", rows[2].from = "E_Z0B";
   for (int d = 0; d < 3; ++d) {
-    const char about = turns[i(d)];
+    const char about = turn_letters[i(d)];
     rows.push_back({fmt::format("E_{}0B", about), fmt::format("E_{}0{}", about, first),
-                   d == axes.first.direction ? fmt::format("zero position of the {} axis", first)
-                                             : fmt::format("orientation of the {} axis about {}", first, letters[i(d)])});
+                    d == axes.first.direction
+                        ? fmt::format("zero position of the {} axis", first)
+                        : fmt::format("orientation of the {} axis about {}", first, slide_letters[i(d)])});
   }
   const auto relative = [&](const char* from, char along, const std::string& what) {
     const std::string own = fmt::format("E_{}0{}", along, second);
-    rows.push_back(axes.one_in_each() ? Renamed{from, own, fmt::format("{} {}", what, letters[i(axes.across())])}
-                                     : Renamed{from, fmt::format("{}_minus_E_{}0{}", own, along, first),
-                                               fmt::format("{} {}, against the {} axis", what, letters[i(axes.across())], first)});
+    rows.push_back(axes.one_in_each() ? Renamed{from, own, fmt::format("{} {}", what, slide_letters[i(axes.across())])}
+                                      : Renamed{from, fmt::format("{}_minus_E_{}0{}", own, along, first),
+                                                fmt::format("{} {}, against the {} axis", what,
+                                                            slide_letters[i(axes.across())], first)});
   };
   relative("E_X0C_minus_E_X0B", n, fmt::format("position of the {} axis along", second));
   relative("E_A0C_minus_E_A0B", about_n, fmt::format("orientation of the {} axis about", second));

@@ -9,7 +9,7 @@ namespace gumshoe::propagation {
 
 namespace {
 
-constexpr std::uint64_t unit = 64, most = 1'000'000; // their product with 1e15 / 64 samples stays below 2^64
+constexpr std::uint64_t unit_samples = 64, most = 1'000'000; // their product with 1e15 / 64 samples stays below 2^64
 
 /// False unless all of the text is a whole number.
 bool read(const std::string& text, std::uint64_t& number) {
@@ -23,8 +23,8 @@ bool read(const std::string& text, std::uint64_t& number) {
 std::string Shard::text() const { return std::to_string(number) + '/' + std::to_string(of); }
 
 SampleRange Shard::samples(std::uint64_t total) const {
-  const std::uint64_t units = (total + unit - 1) / unit;
-  const auto start = [&](std::uint64_t parts) { return std::min(total, units * parts / of * unit); };
+  const std::uint64_t units = (total + unit_samples - 1) / unit_samples;
+  const auto start = [&](std::uint64_t parts) { return std::min(total, units * parts / of * unit_samples); };
   return {start(number - 1), start(number)};
 }
 

@@ -6,12 +6,12 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
+#include "base/special_values.h"
 #include "quantities/distribution.h"
 
 namespace gumshoe::quantities {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Moments {

@@ -1,18 +1,16 @@
 /// Densities, distribution functions and supports of the families.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
+#include "base/special_values.h"
 #include "quantities/distribution.h"
 
 namespace gumshoe::quantities {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 double normal_probability(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }

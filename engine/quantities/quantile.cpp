@@ -9,7 +9,7 @@
 namespace gumshoe::quantities {
 namespace {
 
-double normal_probability(double z) {
+double probability_in_lanes(double z) {
   double lanes[8];
   std::fill(lanes, lanes + 8, z);
   kernels().normal_probability(lanes, lanes, 8);
@@ -33,8 +33,8 @@ QuantileSpec curvilinear_spec(double low, double high, double d) {
 
 QuantileSpec truncated_spec(double mean, double u, double low, double high) {
   const double a = (low - mean) / u, b = (high - mean) / u;
-  const double below = normal_probability(a), above = normal_probability(-b);
-  const double between = a > 0 ? normal_probability(-a) - above : normal_probability(b) - below;
+  const double below = probability_in_lanes(a), above = probability_in_lanes(-b);
+  const double between = a > 0 ? probability_in_lanes(-a) - above : probability_in_lanes(b) - below;
   return {Form::truncated, {mean, u, low, high, below, above, between}, {}};
 }
 

@@ -7,8 +7,6 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::int64_t most = std::int64_t{1} << 40;
-
 Options<Comparison> comparison_options() {
   return {
       option::by_hand<Comparison>(measurand_key()),
@@ -97,7 +95,7 @@ Printed read_printed(Table table, const StudyScope& scope, Context& context) {
 Options<SensitivityOptions> sensitivity_options() {
   using Studies = SensitivityOptions;
   const auto size = [](const char* key, std::uint64_t Studies::*member, const char* meaning) {
-    return option::whole(key, member, 0, most, meaning);
+    return option::whole(key, member, 0, option::largest_whole, meaning);
   };
   return {
       size("sobol", &Studies::sobol, "base size of the pick-freeze design; 0: no Sobol' indices"),

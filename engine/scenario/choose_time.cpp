@@ -9,16 +9,6 @@
 
 namespace gumshoe::scenario {
 
-namespace {
-
-/// A formula as text, and where it stands; from the card: nowhere.
-struct Written {
-  std::string text;
-  Location where;
-};
-
-} // namespace
-
 double TimeModel::value(std::size_t formula, const std::vector<double>& quantities, const quantities::Reading& reading,
                         std::size_t readings) const {
   std::vector<double> q;
@@ -58,6 +48,11 @@ public:
   }
 
 private:
+  /// A formula as text, and where it stands; from the card: nowhere.
+  struct Written {
+    std::string text;
+    Location where;
+  };
   Written written(const char* key) {
     const Node* node = table_->find(key);
     const auto text = node ? table_->text(key) : std::nullopt;

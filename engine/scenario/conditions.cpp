@@ -9,8 +9,6 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::int64_t most_readings = 100'000;
-
 double spread_value(const Spread& s, std::size_t i, std::size_t n) {
   return s.first + (s.last - s.first) * static_cast<double>(i) / static_cast<double>(n);
 }
@@ -21,9 +19,9 @@ std::vector<Key> spread_keys() {
           {"readings", shape::whole(1, most_readings), "number of values", true}};
 }
 
-class Reader {
+class ConditionsReader {
 public:
-  Reader(std::optional<Table> table, const ModelCard& model) : table_(std::move(table)), model_(model) {}
+  ConditionsReader(std::optional<Table> table, const ModelCard& model) : table_(std::move(table)), model_(model) {}
 
   Conditions read() {
     std::vector<double> common;
@@ -131,7 +129,7 @@ std::string condition_text(double value, const VariableCard& card) {
 }
 
 Conditions read_conditions(std::optional<Table> table, const ModelCard& model) {
-  return Reader(std::move(table), model).read();
+  return ConditionsReader(std::move(table), model).read();
 }
 
 void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {

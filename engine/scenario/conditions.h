@@ -5,6 +5,9 @@
 
 namespace gumshoe::scenario {
 
+/// A scenario has no more.
+inline constexpr std::int64_t most_readings = 100'000;
+
 /// What one reading was taken under. Conditions that differ between readings are labels too: "start_angle 30 deg".
 struct Commanded {
   quantities::Labels labels;

@@ -64,11 +64,6 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
   return out;
 }
 
-const Node* member(const Node& node, std::string_view key) {
-  const auto it = std::ranges::find(node.members, key, &Member::key);
-  return it == node.members.end() ? nullptr : &it->value;
-}
-
 /// The name of the column that a node refers to, as its text or as { column = "x" }; empty if there is none, or if its
 /// words stand for numbers.
 std::string column_of(const Node& node) {

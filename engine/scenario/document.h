@@ -2,6 +2,7 @@
 /// A TOML document as a plain tree with places in the file; toml++ stays behind parse_document().
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gumshoe::scenario {
@@ -25,6 +26,9 @@ struct Member {
   int line = 0, column = 0; ///< of the key
   Node value;
 };
+
+/// The value of a key of a table; null without it.
+const Node* member(const Node& table, std::string_view key);
 
 /// Throws InputError with the place of the first error of syntax.
 Node parse_document(const std::string& text, const std::string& file);

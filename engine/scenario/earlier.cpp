@@ -21,11 +21,6 @@ namespace {
 using quantities::Component;
 using Share = EarlierOutput::Share;
 
-const Node* member(const Node& table, std::string_view key) {
-  const auto it = std::ranges::find(table.members, key, &Member::key);
-  return it == table.members.end() ? nullptr : &it->value;
-}
-
 /// Of the samples that succeeded in both: the standard normal quantiles of their ranks, correlated.
 double correlation_of_scores(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<std::size_t> both;

@@ -12,12 +12,12 @@ namespace gumshoe::scenario {
 namespace {
 
 constexpr std::size_t longest_name = 255; ///< bytes that a file system gives a name
-constexpr const char* example = "write a name such as \"axis_{run}.csv\"";
+constexpr const char* such_a_name = "write a name such as \"axis_{run}.csv\"";
 
 bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// The number that begins at `at`, without leading zeros; moves `at` behind it.
-std::string number(const std::string& text, std::size_t& at) {
+std::string digits_at(const std::string& text, std::size_t& at) {
   const std::size_t begin = at;
   while (at < text.size() && digit(text[at])) ++at;
   const std::size_t first = std::min(text.find_first_not_of('0', begin), at);
@@ -28,7 +28,7 @@ std::string number(const std::string& text, std::size_t& at) {
 bool before(const std::string& a, const std::string& b) {
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     if (digit(a[i]) && digit(b[j])) {
-      const std::string x = number(a, i), y = number(b, j);
+      const std::string x = digits_at(a, i), y = digits_at(b, j);
       if (x != y) return x.size() != y.size() ? x.size() < y.size() : x < y;
     } else if (a[i] != b[j]) {
       return a[i] < b[j];
@@ -50,10 +50,10 @@ FilePattern::FilePattern(const std::string& pattern) : pattern_(pattern) {
   const std::filesystem::path path(pattern);
   folder_ = path.parent_path().string();
   if (folder_.find_first_of("*{") != std::string::npos)
-    throw InputError("the folder's name is a pattern", "only the file's own name may be one", example);
+    throw InputError("the folder's name is a pattern", "only the file's own name may be one", such_a_name);
   const std::string name = path.filename().string();
   if (name.size() > longest_name)
-    throw InputError("the file's name is too long", fmt::format("it may have {} bytes", longest_name), example);
+    throw InputError("the file's name is too long", fmt::format("it may have {} bytes", longest_name), such_a_name);
   fixed_.emplace_back();
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] != '*' && name[i] != '{') {
@@ -64,9 +64,9 @@ FilePattern::FilePattern(const std::string& pattern) : pattern_(pattern) {
     if (name[i] == '{') {
       const std::size_t end = name.find('}', i);
       const std::string label = end == std::string::npos ? "" : name.substr(i + 1, end - i - 1);
-      if (label.empty()) throw InputError("a brace is not closed, or holds no name", "", example);
+      if (label.empty()) throw InputError("a brace is not closed, or holds no name", "", such_a_name);
       if (std::ranges::find(names_, label) != names_.end())
-        throw InputError(fmt::format("'{{{}}}' stands there twice", label), "", example);
+        throw InputError(fmt::format("'{{{}}}' stands there twice", label), "", such_a_name);
       gap = static_cast<int>(names_.size());
       names_.push_back(label);
       i = end;
@@ -101,7 +101,7 @@ std::vector<FilePattern::Match> FilePattern::matches() const {
     Tried tried;
     if (match(file, 0, 0, tried, m)) out.push_back(std::move(m));
   }
-  if (out.empty()) throw InputError("no file has such a name", "", example);
+  if (out.empty()) throw InputError("no file has such a name", "", such_a_name);
   return out;
 }
 

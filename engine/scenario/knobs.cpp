@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "scenario/conditions.h"
+
 namespace gumshoe::scenario {
 
 namespace {
-constexpr double most_readings = 100'000;
 using Kind = Knob::Kind;
 } // namespace
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/special_values.h"
 #include "scenario/series.h"
 
 namespace gumshoe::scenario {
@@ -14,7 +15,6 @@ namespace {
 
 /// Values are one level if they differ by rounding only: by this share of the range, or of the value.
 constexpr double same_level = 1e-9;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_margin = 0.1; ///< farther than that, nothing was measured near it
 
 } // namespace
@@ -57,25 +57,25 @@ double LoadingTable::along(const std::vector<std::pair<double, double>>& line, s
     if (is_level(input, line[i].first, x)) return line[i].second;
     if (i > 0 && line[i - 1].first < x && x < line[i].first) return through(line[i - 1], line[i]);
   }
-  if (line.size() < 2) return unknown;
+  if (line.size() < 2) return nan;
   const bool above = x > line.back().first;
   const auto& end = above ? line.back() : line.front();
   const double far = reach(input);
-  if (std::fabs(x - end.first) > far + rounding_[input]) return unknown;
+  if (std::fabs(x - end.first) > far + rounding_[input]) return nan;
   // A chord that is shorter than the margin would enlarge what differs between neighbours by chance.
   const auto inside = [&](const auto& level) { return std::fabs(level.first - end.first) >= far; };
   if (above) {
     const auto from = std::find_if(line.rbegin(), line.rend(), inside);
-    return from == line.rend() ? unknown : through(*from, end);
+    return from == line.rend() ? nan : through(*from, end);
   }
   const auto from = std::ranges::find_if(line, inside);
-  return from == line.end() ? unknown : through(end, *from);
+  return from == line.end() ? nan : through(end, *from);
 }
 
 double LoadingTable::at(const std::vector<double>& known) const {
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     if (const double x = along(line(i, known), i, known[inputs_[i]]); !std::isnan(x)) return x;
-  return unknown;
+  return nan;
 }
 
 std::optional<LoadingTable::Limits> LoadingTable::beyond(const std::vector<double>& known) const {

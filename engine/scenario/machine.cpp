@@ -54,7 +54,7 @@ std::vector<Key> machine_keys() {
       shape::reference("measure") + "}}";
   const std::string points = R"("patternProperties": {"^[XYZUVWABC][0-9]*$": {)" + point_shape() + "}}";
   return {
-      {"name", shape::text() + R"(, "examples": )" + shape::quoted(names_of(chain::machines())),
+      {"name", shape::text() + R"(, "examples": )" + shape::json_string(names_of(chain::machines())),
        known + "; with the two sides any other"},
       {"workpiece_side", axes, "axes that carry the workpiece, from the bed outwards; [] if nothing moves"},
       {"tool_side", axes, "axes that carry the tool, from the bed outwards; [] if nothing moves"},

@@ -16,13 +16,9 @@ namespace {
 
 constexpr double day = 86400;
 
-const Node* member(const Node& node, std::string_view key) {
-  const auto it = std::ranges::find(node.members, key, &Member::key);
-  return it == node.members.end() ? nullptr : &it->value;
-}
+} // namespace
 
-/// { column = "x" } for the name of a column alone.
-Node as_table(const Node& node) {
+Node column_table(const Node& node) {
   if (node.kind != Node::Kind::text) return node;
   Node out;
   out.line = node.line;
@@ -30,8 +26,6 @@ Node as_table(const Node& node) {
   out.members = {{"column", node.line, node.column, node}};
   return out;
 }
-
-} // namespace
 
 std::vector<Key> number_column_keys() {
   return {{"column", shape::texts(),
@@ -76,7 +70,7 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
                                                const Dimension& dimension) {
   const Node* const node = parent.find(key);
   if (!node) return std::nullopt;
-  const Node stated = as_table(*node);
+  const Node stated = column_table(*node);
   auto table = scenario::as_table(stated, parent.path(key), parent.problems());
   if (!table) return std::nullopt;
   table->declare(number_column_keys());

@@ -10,6 +10,9 @@ std::vector<Key> number_column_keys();
 /// Such a table, or the column's name alone.
 Shape number_column_shape();
 
+/// { column = "x" } for the name of a column alone; a table as it is.
+Node column_table(const Node& node);
+
 /// The unit of such a column as its table says it, or as `units` do (by column); "s" for clock times, empty without
 /// one.
 std::string unit_of_column(const Node& node, const std::map<std::string, std::string>& units);

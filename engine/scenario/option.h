@@ -70,6 +70,9 @@ template <class Section> std::string explained_changes(const Options<Section>& o
 
 namespace option {
 
+/// Of samples and seeds: beyond it a scenario asks for what cannot be.
+inline constexpr std::int64_t largest_whole = std::int64_t{1} << 40;
+
 /// A key that its section reads itself.
 template <class Section> Option<Section> by_hand(Key key) { return {std::move(key)}; }
 template <class Section> Option<Section> by_hand(std::string key, Shape shape, std::string meaning) {
@@ -155,7 +158,7 @@ Option<Section> word(const std::string& key, T Section::*member,
     return std::string();
   };
   const std::string usual = shown(Section{});
-  return {{key, shape::words(words), std::move(meaning), false, usual.empty() ? usual : shape::quoted(usual)},
+  return {{key, shape::words(words), std::move(meaning), false, usual.empty() ? usual : shape::json_string(usual)},
           [=](Table& t, Section& s) {
             if (const auto i = t.choice(key, words)) s.*member = meant[*i].second;
           },

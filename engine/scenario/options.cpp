@@ -1,21 +1,17 @@
 #include "scenario/options.h"
 
 namespace gumshoe::scenario {
-namespace {
-
-constexpr std::int64_t most = std::int64_t{1} << 40;
-
-} // namespace
 
 Options<Adaptive> adaptive_options() {
   using enum StoppingRule;
   auto rule = option::word("rule", &Adaptive::rule, std::vector{jcgm_101, stein},
                            "JCGM 101 7.9 as printed, or Stein's two stages (Wuebbeler et al. 2010)");
-  rule.usual = shape::quoted(name(stein)); // of a table that is there: without one the rule is none of them
+  rule.usual = shape::json_string(name(stein)); // of a table that is there: without one the rule is none of them
   return {
       rule,
       option::whole("digits", &Adaptive::digits, 1, 4, "n_dig, number of meaningful significant digits of u"),
-      option::whole("max_samples", &Adaptive::most, 20'000, most, "number of samples at which the rule gives up"),
+      option::whole("max_samples", &Adaptive::most, 20'000, option::largest_whole,
+                    "number of samples at which the rule gives up"),
       option::flag("validation", &Adaptive::validation,
                    "aim at a fifth of the tolerance, so that the validation of the GUM framework is decided"),
   };
@@ -24,8 +20,8 @@ Options<Adaptive> adaptive_options() {
 Options<RunOptions> run_options() {
   using enum Design;
   return {
-      option::whole("samples", &RunOptions::samples, 2, most, "number of samples; excludes adaptive"),
-      option::whole("seed", &RunOptions::seed, 0, most, "the same seed gives the same samples"),
+      option::whole("samples", &RunOptions::samples, 2, option::largest_whole, "number of samples; excludes adaptive"),
+      option::whole("seed", &RunOptions::seed, 0, option::largest_whole, "the same seed gives the same samples"),
       option::word("design", &RunOptions::design, std::vector{monte_carlo, latin_hypercube, sobol},
                    "how the samples are drawn; adaptive runs need monte_carlo"),
       option::share("max_failed_share", &RunOptions::max_failed_share, false,

@@ -24,7 +24,7 @@ PlanColumn* find(std::vector<PlanColumn>& columns, const Node& name) {
 }
 
 /// Words that stand for numbers: map = { up = 1, down = -1 }.
-std::vector<std::pair<std::string, double>> words_of(const Node& column, const std::string& si_unit) {
+std::vector<std::pair<std::string, double>> map_of(const Node& column, const std::string& si_unit) {
   std::vector<std::pair<std::string, double>> out;
   const Node* const map = member(&column, "map");
   for (const Member& m : map ? map->members : std::vector<Member>{}) {
@@ -55,7 +55,7 @@ void fill(std::vector<PlanColumn>& columns, const Node& of, const ModelCard& mod
         column->si_unit = model.conditions[c].si_unit;
         const std::string unit = unit_of_column(m.value, stated_units(data));
         column->unit = unit.empty() ? column->si_unit : unit;
-        column->words = words_of(m.value, column->si_unit);
+        column->words = map_of(m.value, column->si_unit);
       }
 }
 

@@ -30,16 +30,6 @@ std::vector<Key> shared_keys() {
 /// The label that tells rows apart: the number of the row of the table, from 1.
 constexpr const char* row_label = "row";
 
-/// { column = "x" } for the name of a column alone.
-Node as_table(const Node& node) {
-  if (node.kind != Node::Kind::text) return node;
-  Node out;
-  out.line = node.line;
-  out.column = node.column;
-  out.members = {{"column", node.line, node.column, node}};
-  return out;
-}
-
 /// Readouts of the file, gathered by their labels and conditions in the order in which these occur first.
 class Groups {
 public:
@@ -62,7 +52,7 @@ private:
 class FileReader {
 public:
   FileReader(Table& indication, const VariableCard& card, const ModelCard& model, Context& context)
-      : node_(as_table(*indication.find("readings"))), own_(node_, indication.path("readings"), context.problems),
+      : node_(column_table(*indication.find("readings"))), own_(node_, indication.path("readings"), context.problems),
         card_(card), model_(model), context_(context), problems_before_(context.problems.size()) {
     if (context.data && context.data->kind == Node::Kind::table && !own_.has("file"))
       shared_.emplace(*context.data, "data", context.problems);

@@ -164,13 +164,13 @@ int line_of_names(const std::string& text) {
   }
   for (const char separator : {';', '\t', ','}) {
     std::map<std::size_t, std::size_t> count; // lines by number of separators
-    const auto separators = [&](const std::string& l) {
+    const auto separators_in = [&](const std::string& l) {
       return static_cast<std::size_t>(std::ranges::count(l, separator));
     };
-    for (const std::string& l : lines) ++count[separators(l)];
+    for (const std::string& l : lines) ++count[separators_in(l)];
     const auto most = std::ranges::max_element(count, {}, [](const auto& c) { return c.second; });
     if (most == count.end() || most->first == 0 || 2 * most->second <= lines.size()) continue;
-    const auto names = std::ranges::find(lines, most->first, separators);
+    const auto names = std::ranges::find(lines, most->first, separators_in);
     return static_cast<int>(names - lines.begin()) + 1;
   }
   return 0;

@@ -19,9 +19,9 @@ std::vector<Key> repeatability_keys() {
 
 Key pooled_key() { return {"pooled", R"("const": true)", "pools s over all cells of the data (GUM 4.2.4)", true}; }
 
-class Reader {
+class RepeatabilityReader {
 public:
-  Reader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, Context& context)
+  RepeatabilityReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, Context& context)
       : table_(table), card_(card), readouts_(readouts), context_(context) {}
 
   Repeatability read() {
@@ -105,7 +105,7 @@ Key repeatability_key() {
 
 Repeatability read_repeatability(Table& table, const VariableCard& card, const IndicationReadouts& readouts,
                                  Context& context) {
-  return Reader(table, card, readouts, context).read();
+  return RepeatabilityReader(table, card, readouts, context).read();
 }
 
 double sum_of_squares(const std::vector<double>& x) {

@@ -31,7 +31,7 @@ struct Layout {
 };
 
 /// Names of runs and targets are short; a regular expression may not be asked about a line of megabytes.
-constexpr std::size_t longest_name = 40;
+constexpr std::size_t longest_header = 40;
 
 double sign_of(const std::string& word) {
   const auto known = signs({word});
@@ -52,7 +52,7 @@ struct Named {
 std::vector<Named> columns_like(const Csv& csv, const std::regex& form) {
   std::vector<Named> out;
   for (std::size_t c = 0; c < csv.header.size(); ++c) {
-    if (csv.header[c].text.size() > longest_name) continue;
+    if (csv.header[c].text.size() > longest_header) continue;
     std::string name;
     std::smatch match;
     const std::string unit = unit_in(csv.header[c].text, name);
@@ -136,7 +136,7 @@ std::optional<Layout> targets(const Csv& csv) {
   std::vector<double> at;
   for (std::size_t c = 0; c < csv.header.size(); ++c) {
     std::smatch match;
-    if (csv.header[c].text.size() > longest_name || !std::regex_match(csv.header[c].text, match, form)) continue;
+    if (csv.header[c].text.size() > longest_header || !std::regex_match(csv.header[c].text, match, form)) continue;
     if (!match[3].str().empty() && unit_below(match[3]).empty()) continue;
     unit = match[3];
     out.parts.push_back({c, {match[1]}});

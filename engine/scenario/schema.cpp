@@ -58,9 +58,9 @@ std::vector<Key> definitions() {
 }
 
 /// What the cards call their quantities, conditions or indications; a name of several models has several meanings.
-class Names {
+class NamedInCards {
 public:
-  explicit Names(const char* definition) : definition_(definition) {}
+  explicit NamedInCards(const char* definition) : definition_(definition) {}
   template <class Cards> void add(const ModelCard& model, const Cards& cards) {
     for (const auto& card : cards) {
       const std::string meaning =
@@ -81,7 +81,7 @@ private:
 };
 
 std::string only(const char* section, const std::vector<std::string>& names) {
-  return fmt::format(R"("{}": {{"propertyNames": {{"enum": {}}}}})", section, shape::quoted(names));
+  return fmt::format(R"("{}": {{"propertyNames": {{"enum": {}}}}})", section, shape::json_string(names));
 }
 
 /// What a model of the catalogue has: other names are refused. A described machine renames quantities and conditions.
@@ -97,7 +97,7 @@ std::string rules_of(const ModelCard& model, const Catalogue& catalogue) {
   const auto rule = [&](const std::string& also_if, const std::string& then) {
     return fmt::format(R"({{"if": {{"properties": {{"model": {{"properties": {{"name": {{"const": {}}}}}}}}}{}}}, )"
                        R"("then": {{"properties": {{{}}}}}}})",
-                       shape::quoted(model.name), also_if, then);
+                       shape::json_string(model.name), also_if, then);
   };
   const models::Model* row = models::find(model.name);
   if (!row || !row->on_machine) return rule("", fixed + ", " + named);
@@ -131,7 +131,7 @@ std::vector<Key> model_keys() {
       {"name", text(), "one that gumshoe models lists; or " + described, true},
       {"method", words({"propagation", "virtual_experiment"}),
        "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate",
-       false, quoted("propagation")},
+       false, json_string("propagation")},
       {"evaluation", text(), "evaluation of the model; default: the first"},
       {"intermediates", map(formula), "expression: formulas used by others, in any order"},
       {"measurands", map(any_of({formula, measurand})),
@@ -139,7 +139,7 @@ std::vector<Key> model_keys() {
       {"indications", map(formula), "expression: the simulated readings, for virtual experiments and fits"},
       {"measured", words({"position", "distance"}),
        "serial_chain: what the instrument measures of the target: x, y and z, or its distance", false,
-       quoted("position")},
+       json_string("position")},
       {"library", text(), "plugin: the shared library, relative to the scenario's folder"},
       {"command", list(text(), R"("minItems": 1)"),
        "command: the program and its arguments; run in the scenario's folder, points as CSV on standard input, results "
@@ -188,7 +188,7 @@ const std::vector<Key>& sections() {
 }
 
 std::string schema(const Catalogue& catalogue) {
-  Names conditions("condition"), quantities("quantity"), indications("indication");
+  NamedInCards conditions("condition"), quantities("quantity"), indications("indication");
   std::string rules;
   for (const ModelCard* model : catalogue.models) {
     conditions.add(*model, model->conditions);
@@ -205,10 +205,11 @@ std::string schema(const Catalogue& catalogue) {
   }
   std::string defined;
   for (const Key& d : definitions())
-    defined += (defined.empty() ? "" : ", ") + shape::quoted(d.name) + ": " + shape::described(d);
+    defined += (defined.empty() ? "" : ", ") + shape::json_string(d.name) + ": " + shape::described(d);
   return R"({"$schema": "http://json-schema.org/draft-07/schema#", "title": "Gumshoe scenario", "description": )" +
-         shape::quoted("What is measured and what is known of each input quantity. Numbers with a dimension are text "
-                       "with a unit: \"0.6 um\", \"0.2836 deg\".") +
+         shape::json_string(
+             "What is measured and what is known of each input quantity. Numbers with a dimension are text "
+             "with a unit: \"0.6 um\", \"0.2836 deg\".") +
          ", " + shape::table(all, fmt::format(R"("allOf": [{}])", rules)) + R"(, "definitions": {)" + defined + "}}";
 }
 

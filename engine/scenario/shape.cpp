@@ -9,7 +9,7 @@ std::string with(const Shape& shape, const std::string& more) { return more.empt
 
 } // namespace
 
-std::string quoted(std::string_view text) {
+std::string json_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -18,9 +18,9 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
-std::string quoted(const std::vector<std::string>& texts) {
+std::string json_string(const std::vector<std::string>& texts) {
   std::string out;
-  for (const std::string& t : texts) out += (out.empty() ? "" : ", ") + quoted(t);
+  for (const std::string& t : texts) out += (out.empty() ? "" : ", ") + json_string(t);
   return '[' + out + ']';
 }
 
@@ -41,7 +41,7 @@ Shape whole(std::int64_t low, std::int64_t high) {
   return fmt::format(R"({}, "minimum": {}, "maximum": {}, "multipleOf": 1)", number(), low, high);
 }
 
-Shape words(const std::vector<std::string>& words) { return R"("enum": )" + quoted(words); }
+Shape words(const std::vector<std::string>& words) { return R"("enum": )" + json_string(words); }
 
 Shape reference(std::string_view definition) { return fmt::format(R"("$ref": "#/definitions/{}")", definition); }
 
@@ -63,11 +63,11 @@ Shape table(const std::vector<Key>& keys, const std::string& more, const Shape& 
   std::string out = R"("type": "object")", properties;
   std::vector<std::string> required;
   for (const Key& k : keys) {
-    properties += (properties.empty() ? "" : ", ") + quoted(k.name) + ": " + described(k);
+    properties += (properties.empty() ? "" : ", ") + json_string(k.name) + ": " + described(k);
     if (k.required) required.push_back(k.name);
   }
   if (!keys.empty()) out += R"(, "properties": {)" + properties + '}';
-  if (!required.empty()) out += R"(, "required": )" + quoted(required);
+  if (!required.empty()) out += R"(, "required": )" + json_string(required);
   if (!more.empty()) out += ", " + more;
   return out + R"(, "additionalProperties": )" + (others.empty() ? "false" : '{' + others + '}');
 }
@@ -75,7 +75,7 @@ Shape table(const std::vector<Key>& keys, const std::string& more, const Shape& 
 std::string described(const Key& key) {
   std::string more;
   if (!key.usual.empty() && !key.required) more += R"(, "default": )" + key.usual;
-  if (!key.meaning.empty()) more += R"(, "description": )" + quoted(key.meaning);
+  if (!key.meaning.empty()) more += R"(, "description": )" + json_string(key.meaning);
   // Draft 7 ignores what stands next to a reference.
   const bool wrapped = !more.empty() && key.shape.starts_with(R"("$ref")");
   return '{' + (wrapped ? R"("allOf": [{)" + key.shape + "}]" : key.shape) + more + '}';

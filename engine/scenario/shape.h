@@ -24,9 +24,9 @@ struct Key {
 namespace shape {
 
 /// A JSON string, quotes included.
-std::string quoted(std::string_view text);
+std::string json_string(std::string_view text);
 /// A JSON array of strings.
-std::string quoted(const std::vector<std::string>& texts);
+std::string json_string(const std::vector<std::string>& texts);
 
 Shape text();
 Shape flag();

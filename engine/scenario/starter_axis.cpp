@@ -11,21 +11,19 @@
 
 namespace gumshoe::scenario {
 
-using Role = ColumnRole;
-
 namespace {
 
 /// A quantity that is fitted: one, or one of each alignment.
 std::string fitted(const RecognisedData& data, const NamedColumns& labels, const std::string& unit) {
   const std::string zero = fmt::format("\"0 {}\"", unit);
   for (const auto& [name, c] : labels) {
-    if (c->role != Role::alignment) continue;
+    if (c->role != ColumnRole::alignment) continue;
     std::string all;
     std::set<std::string> known;
     for (const auto& row : data.csv.rows)
       if (const std::string& text = row[static_cast<std::size_t>(data.csv.find(c->name))].text;
           known.insert(text).second)
-        all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", quoted(text), zero);
+        all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", toml_string(text), zero);
     return fmt::format("{{ estimated = true, by.{} = {{ {} }} }}", name, all);
   }
   return fmt::format("{{ estimated = true, value = {} }}", zero);
@@ -36,8 +34,8 @@ std::string fitted(const RecognisedData& data, const NamedColumns& labels, const
 std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const RecognisedColumn& position,
                                               const RecognisedColumn& reading) {
   const auto is_error = [&](const RecognisedColumn& c) {
-    if (!c.number || c.gaps || (c.role != Role::other && c.role != Role::reading) || c.unit == "?" || c.unit == "1" ||
-        counts_rows(c) || names_parts(c) || is_circumstance(c))
+    if (!c.number || c.gaps || (c.role != ColumnRole::other && c.role != ColumnRole::reading) || c.unit == "?" ||
+        c.unit == "1" || counts_rows(c) || names_parts(c) || is_circumstance(c))
       return false;
     const std::string si_unit = units::si_unit_of(c.unit);
     const bool small = c.unit == "um" || c.unit == "nm" || c.unit == "arcsec" || c.unit == "urad";
@@ -48,7 +46,7 @@ std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const 
   const bool guessed = reading.basis == Basis::place, told = reading.basis == Basis::user;
   std::vector<const RecognisedColumn*> out;
   for (const RecognisedColumn& c : data.columns) {
-    if (&c != &reading && (!is_error(c) || (told && c.role != Role::reading))) continue;
+    if (&c != &reading && (!is_error(c) || (told && c.role != ColumnRole::reading))) continue;
     const RecognisedColumn& first = !guessed ? reading : out.empty() ? c : *out[0];
     if (units::convertible(c.unit, units::si_unit_of(first.unit))) out.push_back(&c);
   }
@@ -100,7 +98,7 @@ NamedColumns circumstances(const RecognisedData& data, Names& names, const std::
   NamedColumns out;
   const auto set = [&](const RecognisedColumn& c) { return different(data, c) <= few && was_set(data, c); };
   for (const RecognisedColumn& c : data.columns)
-    if (c.number && !c.gaps && c.role == Role::other && (c.unit != "?" || is_coordinate(c)) &&
+    if (c.number && !c.gaps && c.role == ColumnRole::other && (c.unit != "?" || is_coordinate(c)) &&
         (is_circumstance(c) || set(c)) && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
         different(data, c) > 1)
       out.emplace_back(names.add(c.name), &c);
@@ -156,15 +154,16 @@ std::string formula_of(const Channel& c, const AxisModel& model) {
 
 std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedData& found = data.found;
-  const RecognisedColumn* const position = found.find(Role::position);
-  const RecognisedColumn* reading = found.find(Role::reading);
+  const RecognisedColumn* const position = found.find(ColumnRole::position);
+  const RecognisedColumn* reading = found.find(ColumnRole::reading);
   if (!position || !reading)
     throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
                      "tell which it is: --role COLUMN=reading");
   require_numbers(found, *position, "positions");
   require_numbers(found, *reading, "readings");
-  const std::optional<RecognisedColumn> way = found.find(Role::direction) ? std::nullopt : both_ways(found, *position);
-  const RecognisedColumn* const direction = way ? &*way : found.find(Role::direction);
+  const std::optional<RecognisedColumn> way =
+      found.find(ColumnRole::direction) ? std::nullopt : both_ways(found, *position);
+  const RecognisedColumn* const direction = way ? &*way : found.find(ColumnRole::direction);
   const RecognisedColumn* const sd = uncertainty_of(found);
   const auto columns = channels(found, *position, *reading);
   if (std::ranges::find(columns, reading) == columns.end()) reading = columns[0];
@@ -176,7 +175,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   if (direction) conditions.emplace_back("direction", direction);
   Names names{"position", "direction"};
   const std::string pos_difference = difference_unit_or(*position, "mm");
-  const AxisModel model{measured, turns, turns && found.find(Role::alignment), direction != nullptr,
+  const AxisModel model{measured, turns, turns && found.find(ColumnRole::alignment), direction != nullptr,
                         pos == pos_difference ? "" : names.add("reference")};
   const std::vector<Channel> all = named_channels(columns, model, names);
   std::set<std::string> used{position->name};
@@ -197,9 +196,9 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
                   data.file, turns ? "an offset" : "a straight line", direction ? " and a reversal" : "",
                   direction ? "" : "es", scenario);
   out += fmt::format("schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
-                     quoted(data.file));
+                     toml_string(data.file));
   for (const Channel& c : all)
-    out += line(c.name, quoted(formula_of(c, model)),
+    out += line(c.name, toml_string(formula_of(c, model)),
                 measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
@@ -220,7 +219,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   }
   for (const Channel& c : all) {
     out += fmt::format("\n[indications.{}]\n", c.name) +
-           line("readings", quoted(c.column->name),
+           line("readings", toml_string(c.column->name),
                 c.column->why.empty() ? "guessed: an error at the positions" : "recognised " + c.column->why);
     out += noise_line(*c.column, c.column == reading ? sd : nullptr);
   }

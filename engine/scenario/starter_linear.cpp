@@ -12,8 +12,6 @@
 namespace gumshoe::scenario {
 namespace {
 
-using Role = ColumnRole;
-
 /// A condition of the scenario, made of a column.
 struct Covariate {
   std::string name;
@@ -91,7 +89,7 @@ private:
   /// The column itself where it is a number; a 0 or 1 for each word but the first where it is not.
   std::vector<Covariate> covariates_of(const RecognisedColumn& c) {
     const bool words = !c.number && c.clock.empty() && c.words.empty();
-    if (!words && c.role != Role::cycle) {
+    if (!words && c.role != ColumnRole::cycle) {
       const std::string name = name_of(c);
       state(name, c);
       const std::string unit = !c.clock.empty() ? "s" : unit_or(c, "1");
@@ -150,9 +148,10 @@ private:
 
 /// Columns that a linear model has if none is named: numbers but the reading, its uncertainty and times; a direction.
 bool by_default(const RecognisedColumn& c) {
-  if (c.role == Role::reading || c.role == Role::uncertainty || c.role == Role::time || c.role == Role::cycle)
+  if (c.role == ColumnRole::reading || c.role == ColumnRole::uncertainty || c.role == ColumnRole::time ||
+      c.role == ColumnRole::cycle)
     return false;
-  return c.number || c.role == Role::direction;
+  return c.number || c.role == ColumnRole::direction;
 }
 
 } // namespace
@@ -160,7 +159,7 @@ bool by_default(const RecognisedColumn& c) {
 std::string starter_linear(const StarterData& data, const std::vector<std::string>& terms,
                            const std::string& scenario) {
   const RecognisedData& found = data.found;
-  const RecognisedColumn* const reading = found.find(Role::reading);
+  const RecognisedColumn* const reading = found.find(ColumnRole::reading);
   if (!reading)
     throw InputError(found.csv.file + ": there is no column of readings", "a linear model explains one",
                      "tell which it is: --role COLUMN=reading");
@@ -178,7 +177,7 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
   if (sd) used.insert(sd->name);
   std::string order;
   for (const auto& [name, c] : model.conditions())
-    if (c->role == Role::time) order = name;
+    if (c->role == ColumnRole::time) order = name;
   const std::string recorded = columns_of(found, model.names(), used, order);
   const NamedColumns labels = labels_of(found);
   const std::string& name = model.reading_name();
@@ -188,14 +187,14 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
                   "# Written by gumshoe new. What was guessed is said in comments: correct it where it is "
                   "wrong.\n\nschema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
                   data.file, terms.empty() ? "the other columns" : fmt::format("{}", fmt::join(terms, ", ")), scenario,
-                  scenario, quoted(data.file));
-  out += line(name, quoted("constant" + model.formula()), "add products by --term, such as --term \"x*y\"") + '\n';
+                  scenario, toml_string(data.file));
+  out += line(name, toml_string("constant" + model.formula()), "add products by --term, such as --term \"x*y\"") + '\n';
   out += data_section(data, labels, model.conditions(), used);
   out += "\n[quantities]                            # fitted to the readings\n";
   out += line("constant", fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit_or(*reading, "1")), "");
   out += model.coefficients();
-  out +=
-      fmt::format("\n[indications.{}]\n", name) + line("readings", quoted(reading->name), "recognised " + reading->why);
+  out += fmt::format("\n[indications.{}]\n", name) +
+         line("readings", toml_string(reading->name), "recognised " + reading->why);
   out += noise_line(*reading, sd);
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }

@@ -12,8 +12,6 @@
 
 namespace gumshoe::scenario {
 
-using Role = ColumnRole;
-
 namespace {
 
 /// The text of an example by its sections: header line and what follows it, comments in front included.
@@ -85,7 +83,7 @@ private:
     const auto& columns = data_->found.columns;
     for (const VariableCard& i : card_.indications) {
       auto c = std::ranges::find_if(columns, [&](const auto& one) { return one.number && is_named(one, i.name); });
-      const RecognisedColumn* only = card_.indications.size() == 1 ? data_->found.find(Role::reading) : nullptr;
+      const RecognisedColumn* only = card_.indications.size() == 1 ? data_->found.find(ColumnRole::reading) : nullptr;
       readings_.emplace_back(i.name, c != columns.end() ? &*c : only);
       if (readings_.back().second) used_.insert(readings_.back().second->name);
     }
@@ -109,7 +107,7 @@ private:
       out += fmt::format("{}# {}, {}\n",
                          std::string(std::max<std::size_t>(1, 25 - std::min<std::size_t>(24, card.name.size())), ' '),
                          card.meaning, card.unit);
-      out += line("readings", c ? quoted(c->name) : "\"?\"",
+      out += line("readings", c ? toml_string(c->name) : "\"?\"",
                   c ? "recognised " + (c->why.empty() || is_named(*c, card.name) ? std::string("by its name") : c->why)
                     : "which column? Write its name; the file has " +
                           fmt::format("{}", fmt::join(data_->found.csv.names(), ", ")));
@@ -133,7 +131,7 @@ private:
 
   /// Whether the model takes positions for deviations on request, and the data's readings are positions.
   bool reads_position() const {
-    const auto* position = data_->found.find(Role::position);
+    const auto* position = data_->found.find(ColumnRole::position);
     return std::ranges::find(card_.conditions, "reads_position", &VariableCard::name) != card_.conditions.end() &&
            position && readings_.size() == 1 && readings_[0].second &&
            measured_position(data_->found, *position, *readings_[0].second);

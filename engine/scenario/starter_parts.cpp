@@ -12,29 +12,19 @@
 
 namespace gumshoe::scenario {
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text)
-    if (c == '"' || c == '\\')
-      out += {'\\', c};
-    else if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f)
-      out += fmt::format("\\u{:04X}", code);
-    else
-      out += c;
-  return out + '"';
-}
-
 namespace {
 
 /// "pos_mm", or a table of its map, clock or sense.
 std::string column_text(const RecognisedColumn& c) {
-  const std::string column = c.date.empty() ? quoted(c.name) : fmt::format("[{}, {}]", quoted(c.date), quoted(c.name));
+  const std::string column =
+      c.date.empty() ? toml_string(c.name) : fmt::format("[{}, {}]", toml_string(c.date), toml_string(c.name));
   if (c.sense) return fmt::format("{{ column = {}, sense = true }}", column);
-  if (!c.clock.empty()) return fmt::format("{{ column = {}, clock = {} }}", column, quoted(c.clock));
-  if (c.words.empty() || c.number) return quoted(c.name);
+  if (!c.clock.empty()) return fmt::format("{{ column = {}, clock = {} }}", column, toml_string(c.clock));
+  if (c.words.empty() || c.number) return toml_string(c.name);
   std::string map;
-  for (const auto& [word, sign] : c.words) map += fmt::format("{}{} = {}", map.empty() ? "" : ", ", quoted(word), sign);
-  return fmt::format("{{ column = {}, map = {{ {} }} }}", quoted(c.name), map);
+  for (const auto& [word, sign] : c.words)
+    map += fmt::format("{}{} = {}", map.empty() ? "" : ", ", toml_string(word), sign);
+  return fmt::format("{{ column = {}, map = {{ {} }} }}", toml_string(c.name), map);
 }
 
 } // namespace
@@ -188,7 +178,7 @@ std::string missing_of(const RecognisedData& data, const RecognisedColumn& c) {
   std::set<std::string> texts;
   for (const auto& row : data.csv.rows)
     if (const std::string& text = row[static_cast<std::size_t>(data.csv.find(c.name))].text; says_missing(text))
-      texts.insert(quoted(text));
+      texts.insert(toml_string(text));
   return texts.size() == 1 ? *texts.begin() : fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
@@ -207,28 +197,28 @@ bool recur(const RecognisedData& data, const NamedColumns& labels, const NamedCo
 
 std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
                          const std::set<std::string>& used) {
-  std::string out = "[data]\n" + line("file", quoted(data.file), "several files as one: \"run_{run}.csv\"");
-  if (!data.found.form.empty()) out += line("form", quoted(data.found.form), "description of its lines");
+  std::string out = "[data]\n" + line("file", toml_string(data.file), "several files as one: \"run_{run}.csv\"");
+  if (!data.found.form.empty()) out += line("form", toml_string(data.found.form), "description of its lines");
   if (data.found.header > 0) out += line("header", std::to_string(data.found.header), "line of the column names");
   if (data.found.first_row > 0) out += line("first_row", std::to_string(data.found.first_row), "line of the first row");
-  if (!data.found.delimiter.empty()) out += line("delimiter", quoted(data.found.delimiter), "");
+  if (!data.found.delimiter.empty()) out += line("delimiter", toml_string(data.found.delimiter), "");
   if (data.found.decimal == ',') out += line("decimal", "\",\"", "");
   std::string names;
   for (const auto& [name, c] : labels)
-    names += fmt::format("{}{} = {}", names.empty() ? "" : ", ", name, quoted(c->name));
+    names += fmt::format("{}{} = {}", names.empty() ? "" : ", ", name, toml_string(c->name));
   if (!names.empty()) out += line("labels", "{ " + names + " }", "guessed: what tells repeated series apart");
   std::string where;
   for (const RecognisedColumn& c : data.found.columns)
     if (c.gaps && used.contains(c.name))
-      where +=
-          fmt::format("{}{} = {{ not = {} }}", where.empty() ? "" : ", ", quoted(c.name), missing_of(data.found, c));
+      where += fmt::format("{}{} = {{ not = {} }}", where.empty() ? "" : ", ", toml_string(c.name),
+                           missing_of(data.found, c));
   if (recur(data.found, labels, conditions))
     out += line("repeats", "\"apart\"", "rows that agree in all this are readings of their own, in their order");
   if (!where.empty()) out += line("where", "{ " + where + " }", "rows without a number are left out");
   out += "\n[data.units]\n";
   for (const RecognisedColumn& c : data.found.columns)
     if (c.number && c.unit != "1" && used.contains(c.name))
-      out += line(quoted(c.name), quoted(c.unit),
+      out += line(toml_string(c.name), toml_string(c.unit),
                   c.unit == "?"    ? "the file does not say it: write the unit, such as \"mm\""
                   : c.unit_told    ? "as told"
                   : c.unit_guessed ? "guessed: temperatures of 10 to 45, or as the others"
@@ -296,13 +286,14 @@ std::string difference_unit_or(const RecognisedColumn& c, const char* otherwise)
 
 std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty) {
   if (uncertainty && uncertainty->number)
-    return line("u", fmt::format("{{ column = {} }}", quoted(uncertainty->name)), "recognised " + uncertainty->why);
-  return line("# u", quoted("0.2 " + unit_or(reading, "um")), "state the noise of a reading if you know it");
+    return line("u", fmt::format("{{ column = {} }}", toml_string(uncertainty->name)),
+                "recognised " + uncertainty->why);
+  return line("# u", toml_string("0.2 " + unit_or(reading, "um")), "state the noise of a reading if you know it");
 }
 
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
   if (const auto* const label = block_label(data, labels))
-    return line("blocks", quoted(label->first), "an effect should recur in each of them");
+    return line("blocks", toml_string(label->first), "an effect should recur in each of them");
   if (data.csv.rows.size() < 12)
     return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
            "them\n";
@@ -343,11 +334,11 @@ std::string columns_of(const RecognisedData& data, Names& names, std::set<std::s
         others += line(names.add(c->name + "_number"), column_text(*c),
                        fmt::format("what changes from one {} to the next", c->name));
   const std::string columns = first + others;
-  std::string in_order = ordered_by.empty() ? "" : line("order", quoted(ordered_by), "");
+  std::string in_order = ordered_by.empty() ? "" : line("order", toml_string(ordered_by), "");
   if (!restarts.empty()) {
     std::vector<std::string> blocks;
     for (const RecognisedColumn* c : restarts) blocks.push_back(c->name);
-    in_order = line("# order", quoted(ordered_by),
+    in_order = line("# order", toml_string(ordered_by),
                     fmt::format("it starts anew with each {}: the readings are in the order of the rows",
                                 fmt::join(blocks, " or ")));
   }

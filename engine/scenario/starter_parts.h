@@ -8,14 +8,13 @@
 
 #include "scenario/starter.h"
 #include "scenario/starter_names.h"
+#include "scenario/write.h"
 
 namespace gumshoe::scenario {
 
 /// Names in the scenario, and their columns.
 using NamedColumns = std::vector<std::pair<std::string, const RecognisedColumn*>>;
 
-/// The text between quotes, as TOML takes it.
-std::string quoted(const std::string& text);
 /// "key = value", and a comment if it is not empty.
 std::string line(const std::string& key, const std::string& value, const std::string& comment);
 std::string unit_or(const RecognisedColumn& c, const char* otherwise);

@@ -54,14 +54,14 @@ chain::MachineDescription guessed(const RecognisedData& data) {
 
 std::string listed(const Side& side) {
   std::string out;
-  for (const auto& axis : side) out += (out.empty() ? "" : ", ") + quoted(axis.name);
+  for (const auto& axis : side) out += (out.empty() ? "" : ", ") + toml_string(axis.name);
   return "[" + out + "]";
 }
 
 std::string machine_text(const chain::MachineDescription& d, bool known) {
   std::string out = "[machine]\n";
   if (!d.name.empty()) {
-    out += line("name", quoted(d.name),
+    out += line("name", toml_string(d.name),
                 "from the bed: " + listed(*d.workpiece_side) + " to the workpiece, " + listed(*d.tool_side) +
                     " to the tool");
     return out + "# Axes that do not meet at zero: points = { C = [\"0 mm\", \"0 mm\", \"-50 mm\"] }\n";
@@ -100,7 +100,7 @@ std::string starter_probing(const StarterData& data, const std::string& machine)
           "# Written by gumshoe new. \"?\" stands for what only you know; slides are square until gumshoe trace "
           "finds otherwise.\n\n"
           "schema = 1\ntitle  = {}\n\n[model]\nname = \"sphere_probing\"\n\n",
-          data.file, quoted(data.file)) +
+          data.file, toml_string(data.file)) +
       machine_text(d, known) + '\n' + quantities_text(chain::Machine(d)) + "\n[run]\nsamples = 100_000\nseed    = 1\n";
   const models::MadeModel model = models::probing::make(d);
   return filled_in(*model->card, example, &data);

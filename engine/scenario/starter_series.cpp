@@ -60,7 +60,8 @@ std::string offset_of(const RecognisedData& data, const RecognisedColumn& readin
     const auto parts = by_text(data, reading, *c);
     if (!differ(parts)) continue;
     std::string all;
-    for (const auto& [part, y] : parts) all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", quoted(part), zero);
+    for (const auto& [part, y] : parts)
+      all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", toml_string(part), zero);
     return fmt::format("{{ estimated = true, by.{} = {{ {} }} }}", name, all);
   }
   return fmt::format("{{ estimated = true, value = {} }}", zero);
@@ -104,14 +105,14 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
                   "wrong.\n\nschema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n"
                   "[model.indications]                     # guessed: no column of positions, which "
                   "--role COLUMN=position tells\n",
-                  data.file, scenario, quoted(data.file));
-  for (const auto& [name, c] : readings) out += line(name, quoted(offsets[name]), "");
+                  data.file, scenario, toml_string(data.file));
+  for (const auto& [name, c] : readings) out += line(name, toml_string(offsets[name]), "");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
   for (const auto& [name, c] : readings) out += line(offsets[name], offset_of(found, *c, labels), "");
   for (const auto& [name, c] : readings)
     out += fmt::format("\n[indications.{}]\n", name) +
-           line("readings", quoted(c->name),
+           line("readings", toml_string(c->name),
                 c->why.empty() ? "guessed: numbers that were measured" : "recognised " + c->why) +
            noise_line(*c, nullptr);
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;

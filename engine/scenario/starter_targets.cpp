@@ -51,7 +51,7 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
                   "explain?\n#     gumshoe trace {}\n"
                   "# Written by gumshoe new. What was guessed is said in comments: correct it where it is wrong.\n\n"
                   "schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
-                  data.file, scenario, quoted(data.file));
+                  data.file, scenario, toml_string(data.file));
   std::string quantities;
   const auto fitted = [&](const std::string& name, const std::string& unit) {
     std::string own = names.add(name);
@@ -77,14 +77,14 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
       formula += fmt::format(" + {} * {}", fitted(name + "_by_" + other, units::quotient(unit, difference)),
                              own == difference ? other : fmt::format("({} - {})", other, reference_of(own)));
     }
-    out += line(name, quoted(formula), "guessed: read where it was commanded to");
+    out += line(name, toml_string(formula), "guessed: read where it was commanded to");
   }
   const std::string recorded = columns_of(found, names, used);
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n" + quantities;
   for (const auto& [name, reading] : readings)
     out += fmt::format("\n[indications.{}]\n", name) +
-           line("readings", quoted(reading->name), "recognised by its name") +
+           line("readings", toml_string(reading->name), "recognised by its name") +
            "# u = \"0.02 mm\"                         # state the noise of a reading if you know it\n";
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }

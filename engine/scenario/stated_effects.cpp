@@ -43,9 +43,9 @@ Options<StatedEffect> stated_effect_options() {
   };
 }
 
-class Reader {
+class StatedEffectsReader {
 public:
-  Reader(Table table, const std::string& name, const StatedScope& scope, Context& context)
+  StatedEffectsReader(Table table, const std::string& name, const StatedScope& scope, Context& context)
       : table_(std::move(table)), scope_(scope), context_(context), problems_(context.problems) {
     out_.name = name;
   }
@@ -316,7 +316,8 @@ Shape stated_effects_shape() { return shape::map(table_shape(stated_effect_optio
 StatedEffects read_stated_effects(Table& table, const StatedScope& scope, Context& context) {
   StatedEffects out;
   for (const Member& m : table.members())
-    if (auto own = table.table(m.key)) out.effects.push_back(Reader(*own, m.key, scope, context).read(out.sizes));
+    if (auto own = table.table(m.key))
+      out.effects.push_back(StatedEffectsReader(*own, m.key, scope, context).read(out.sizes));
   return out;
 }
 

@@ -159,6 +159,11 @@ Node parse_document(const std::string& text, const std::string& file) {
   }
 }
 
+const Node* member(const Node& table, std::string_view key) {
+  const auto it = std::ranges::find(table.members, key, &Member::key);
+  return it == table.members.end() ? nullptr : &it->value;
+}
+
 std::string describe(Node::Kind kind) {
   switch (kind) {
   case Node::Kind::table:

@@ -10,7 +10,7 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::int64_t most_points = 200, most_samples = 10'000'000;
+constexpr std::int64_t most_points = 200, most_draws = 10'000'000;
 
 std::vector<Key> range_keys() {
   return {{"from", shape::reference("measure"), "first command", true},
@@ -23,7 +23,7 @@ std::vector<Key> volume_keys() {
       {"tool", shape::list(shape::reference("measure"), R"("minItems": 3, "maxItems": 3)"),
        "point of the tool from the frame of the last component; default: the probe's tip or the target of the model"},
       {"payload", shape::reference("measure"), "mass at the tool; default 0 kg"},
-      {"samples", shape::whole(100, most_samples), "draws of the input quantities", false, "10000"}};
+      {"samples", shape::whole(100, most_draws), "draws of the input quantities", false, "10000"}};
 }
 
 class VolumeReader {
@@ -41,7 +41,7 @@ public:
     out_.chain = models::serial_chain::make(*machine, models::serial_chain::Measured::position);
     const auto conditions = out_.chain->card->conditions;
     for (std::size_t i = 0; i < conditions.size(); ++i) command(conditions[i], i);
-    if (const auto n = table_.integer("samples", 100, most_samples)) out_.samples = static_cast<std::uint64_t>(*n);
+    if (const auto n = table_.integer("samples", 100, most_draws)) out_.samples = static_cast<std::uint64_t>(*n);
     if (const auto* point = table_.array("tool")) tool(*point);
     if (out_.ranges.empty() || out_.ranges.size() > 3)
       table_.refuse(fmt::format("{} axes have a range", out_.ranges.empty() ? "no" : "more than three"),

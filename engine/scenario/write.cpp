@@ -7,9 +7,8 @@
 #include <fmt/format.h>
 
 namespace gumshoe::scenario {
-namespace {
 
-std::string quoted(const std::string& text) {
+std::string toml_string(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -26,9 +25,11 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+namespace {
+
 std::string key(const std::string& name) {
   const auto plain = [](unsigned char c) { return (std::isalnum(c) != 0 && c < 0x80) || c == '_' || c == '-'; };
-  return !name.empty() && std::all_of(name.begin(), name.end(), plain) ? name : quoted(name);
+  return !name.empty() && std::all_of(name.begin(), name.end(), plain) ? name : toml_string(name);
 }
 
 std::string inlined(const Node& node) {
@@ -41,7 +42,7 @@ std::string inlined(const Node& node) {
     for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + inlined(item);
     return "[" + out + "]";
   case Node::Kind::text:
-    return quoted(node.text);
+    return toml_string(node.text);
   case Node::Kind::integer:
     return fmt::format("{}", node.integer);
   case Node::Kind::real:

@@ -63,7 +63,7 @@ constexpr KindText kinds[] = {{"", "one"},
                               {"", "units"},
                               {"", "output_units"},
                               {"", "run"}};
-const KindText& kind(const Unit& unit) { return kinds[static_cast<int>(unit.in)]; }
+const KindText& kind_of(const Unit& unit) { return kinds[static_cast<int>(unit.in)]; }
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
@@ -73,7 +73,7 @@ std::string line(const FieldText& f, const std::string& json) {
   std::string meaning = units ? "unit of the row" : f.meaning;
   for (std::size_t at = 0; (at = meaning.find('|', at)) != std::string::npos; at += 2) meaning.insert(at, "\\");
   return fmt::format("| {} | {} | {} | {} | {} | {} |\n", name,
-                     f.unit.in == In::as_stated ? f.unit.stated : kind(f.unit).people, meaning, code(json),
+                     f.unit.in == In::as_stated ? f.unit.stated : kind_of(f.unit).people, meaning, code(json),
                      code(f.csv), code(f.gauge));
 }
 
@@ -103,7 +103,7 @@ std::string csv_columns_json() {
     std::string where = table.where;
     if (const auto at = where.find("/<k>"); at != std::string::npos) where.erase(at, 4);
     for (const FieldText& f : table.fields)
-      if (!f.csv.empty()) all[where].push_back({f.csv, f.key, kind(f.unit).name});
+      if (!f.csv.empty()) all[where].push_back({f.csv, f.key, kind_of(f.unit).name});
   }
   std::string text;
   for (const auto& [where, columns] : all.items()) {

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 /// The last bytes of the file: length and digest of the record's text in hexadecimal digits.
 constexpr std::string_view mark = "\ngumshoe record ";
 constexpr std::size_t foot = mark.size() + 16 + 1 + 16 + 1;
@@ -112,9 +112,9 @@ void seal(const std::string& path, const Record& record) {
 
 Record read_record(const std::string& path) {
   const RawFile file(path, O_RDONLY);
-  std::string start(std::min<std::uint64_t>(file.size(), signature.size()), '\0');
+  std::string start(std::min<std::uint64_t>(file.size(), hdf5_signature.size()), '\0');
   file.read(start.data(), start.size(), 0);
-  if (start != signature) throw NoResult("it is not an HDF5 file");
+  if (start != hdf5_signature) throw NoResult("it is not an HDF5 file");
   std::uint64_t begin = 0;
   const std::string text = text_of(file, begin);
   require_memory((std::size_t{1} << 20) +

@@ -50,7 +50,7 @@ public:
     empty_.indication = card.name;
     empty_.indication_unit = card.unit;
     empty_.indication_si_unit = card.si_unit;
-    unit_ = unit_of(rms, empty_.indication_unit, empty_.indication_si_unit);
+    unit_ = display_unit(rms, empty_.indication_unit, empty_.indication_si_unit);
   }
 
   /// Unit of errors of the indication.

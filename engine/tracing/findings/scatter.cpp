@@ -77,7 +77,7 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, const FittedSc
   SizedQuantity q;
   q.name = "standard deviation";
   q.si_unit = card.si_unit;
-  q.unit = unit_of(rms, std::string(card.unit), q.si_unit);
+  q.unit = display_unit(rms, std::string(card.unit), q.si_unit);
   const double unit = fit.design.reference[0] * std::sqrt(fit.variance);
   if (component < 0) { // of single readings: the noise is larger than declared
     q.value = unit;

@@ -17,20 +17,20 @@ std::string shown_size(double si, const std::string& unit, const std::string& si
   return fmt::format("{:.3g}{}", units::from_si(si, unit, si_unit, units::Kind::difference), units::suffix(unit));
 }
 
-std::string unit_of(const Rms& rms) {
+std::string display_unit(const Rms& rms) {
   double largest = 0;
   for (const double x : {rms.before, rms.after, rms.noise})
     if (std::isfinite(x)) largest = std::max(largest, x);
   return units::error_unit(rms.unit, rms.si_unit, largest);
 }
 
-std::string unit_of(const Rms& rms, const std::string& unit, const std::string& si_unit) {
-  return rms.si_unit == si_unit ? unit_of(rms) : units::error_unit(unit, si_unit);
+std::string display_unit(const Rms& rms, const std::string& unit, const std::string& si_unit) {
+  return rms.si_unit == si_unit ? display_unit(rms) : units::error_unit(unit, si_unit);
 }
 
 std::string shown_rms(double si, const Rms& rms) {
   if (rms.si_unit != "m") return shown_size(si, rms.unit, rms.si_unit);
-  const std::string unit = unit_of(rms);
+  const std::string unit = display_unit(rms);
   const double x = units::from_si(si, unit, rms.si_unit, units::Kind::difference), size = std::fabs(x);
   return (size < 100 ? fmt::format("{:.2g}", x) : analysis::fixed(x, analysis::decimals_for(size))) + " " + unit;
 }

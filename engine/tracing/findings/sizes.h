@@ -7,9 +7,9 @@ namespace gumshoe::tracing {
 /// A length change in its own unit, "12.3 um".
 std::string shown_size(double si, const std::string& unit, const std::string& si_unit);
 /// Unit in which these figures are shown: their own; of lengths as suits the largest (units::error_unit).
-std::string unit_of(const Rms& rms);
+std::string display_unit(const Rms& rms);
 /// Unit of errors of an indication with these units, next to these figures: theirs, if they are of one kind.
-std::string unit_of(const Rms& rms, const std::string& unit, const std::string& si_unit);
+std::string display_unit(const Rms& rms, const std::string& unit, const std::string& si_unit);
 /// Two digits and that unit.
 std::string shown_rms(double si, const Rms& rms);
 

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
+#include "base/special_values.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 

@@ -23,7 +23,7 @@ Null null_of(const Eigen::Ref<const Matrix>& draws) {
   out.mean = draws.mean();
   out.variance = (draws.array() - out.mean).square().sum() / std::max(1.0, n - 1);
   // One that is the same for all draws but for rounding: of two passes about their common mean, say.
-  if (constexpr double rounding = 1e-6; out.variance < rounding * rounding * out.mean * out.mean) out.variance = 0;
+  if (constexpr double alike = 1e-6; out.variance < alike * alike * out.mean * out.mean) out.variance = 0;
   return out;
 }
 

@@ -13,10 +13,10 @@
 namespace gumshoe::tracing {
 namespace {
 
-constexpr double rounding = 1e-9;
+constexpr double negligible_share = 1e-9;
 
 /// @param rows  of the readings whose cell has others: nothing is left of one that is alone
-double robust_scale(const Vector& residual, const std::vector<Index>& rows, double freedom, double least) {
+double scale_in_cells(const Vector& residual, const std::vector<Index>& rows, double freedom, double least) {
   std::vector<double> sizes;
   for (const Index i : rows) sizes.push_back(std::fabs(residual[i]));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
@@ -24,7 +24,7 @@ double robust_scale(const Vector& residual, const std::vector<Index>& rows, doub
   const double lost = freedom / static_cast<double>(sizes.size());
   const double robust = std::max(least, *middle / 0.6744897501960817 / std::sqrt(lost));
   const double rms = residual.norm() / std::sqrt(freedom);
-  return robust > rounding * rms ? robust : rms;
+  return robust > negligible_share * rms ? robust : rms;
 }
 
 } // namespace
@@ -133,7 +133,7 @@ public:
   Index most_unlikely(const Eigen::Ref<const Vector>& left, const std::vector<Index>& rows) {
     std::vector<Index> unknown;
     std::ranges::copy_if(rows, std::back_inserter(unknown), [&](Index i) { return share_[i] < 0; });
-    each(unknown, [&](Index i, const Vector& response) { share_[i] = std::max(rounding, response[i]); });
+    each(unknown, [&](Index i, const Vector& response) { share_[i] = std::max(negligible_share, response[i]); });
     return *std::ranges::max_element(rows, {}, [&](Index i) { return left[i] * left[i] / share_[i]; });
   }
 
@@ -202,7 +202,7 @@ void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
         moved[i].push_back({j, by});
       }
       fresh[index(j)] = false;
-      const double scale = robust_scale(left.col(j), together_, freedom[j], least);
+      const double scale = scale_in_cells(left.col(j), together_, freedom[j], least);
       bool again = change > settled * scale;
       // One at a time: the others of its cell may only look outlying beside it.
       Index worst = 0;

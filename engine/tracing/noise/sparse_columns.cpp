@@ -8,7 +8,7 @@ namespace gumshoe::tracing {
 namespace {
 
 /// Share of a column's length below which an unknown's column is taken to be explained by those before it.
-constexpr double rounding = 1e-7;
+constexpr double negligible = 1e-7;
 
 std::vector<SparseRow> of_unit_length(const std::vector<SparseRow>& rows, std::size_t columns) {
   std::vector<double> square(columns, 0);
@@ -88,7 +88,7 @@ std::vector<std::size_t> redundant(const std::vector<SparseRow>& rows, std::size
 }
 
 std::vector<std::size_t> explained_by_earlier(const std::vector<SparseRow>& rows, std::size_t columns) {
-  const auto found = redundant(rows, columns, rounding);
+  const auto found = redundant(rows, columns, negligible);
   if (found.empty()) return {};
   // A relation explains the last column in it. With two relations of one last column there is one of earlier columns.
   Matrix all = relations(of_unit_length(rows, columns), columns, found);
@@ -98,7 +98,7 @@ std::vector<std::size_t> explained_by_earlier(const std::vector<SparseRow>& rows
   for (Index j = all.cols(); j-- > 0 && !open.empty();) {
     const auto largest = std::ranges::max_element(open, {}, [&](Index i) { return std::fabs(all(i, j)); });
     const Index own = *largest;
-    if (std::fabs(all(own, j)) <= rounding) continue;
+    if (std::fabs(all(own, j)) <= negligible) continue;
     out.push_back(index(j));
     open.erase(largest);
     for (const Index i : open) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/special_values.h"
 #include "base/units.h"
 #include "calibration/data.h"
 #include "quantities/cells.h"
@@ -21,7 +22,6 @@ namespace {
 
 using scenario::Scenario;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Repeats of every allowed reading that stand for "as many as one likes".
 constexpr int plenty = 1000;
 
