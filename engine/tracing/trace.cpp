@@ -157,9 +157,12 @@ Search what_stands(const TraceContext& c, const Search& found, Trace& out) {
   return left;
 }
 
-/// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.
+/// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too;
+/// what an effect explains that is never as large does not jump.
 bool jumps_not_crossed(const TraceContext& c, const Search& found, bool vetoed) {
-  if (found.jumping.empty() || vetoed || found.last.p_anything > c.alpha_given(!found.findings.empty())) return false;
+  if (found.jumping.empty() || !found.impossible.empty() || vetoed ||
+      found.last.p_anything > c.alpha_given(!found.findings.empty()))
+    return false;
   return std::ranges::none_of(found.findings, [](const SearchFinding& f) {
     return f.finding.kind == Kind::scatter && f.finding.depends_on != std::vector<std::string>{"reading"};
   });
@@ -255,6 +258,9 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
     out.statements.push_back(fmt::format(
         "readings jump with some sizes, of which the search may not have found the best; nearest to the readings: {}",
         fmt::join(found.jumping, ", ")));
+  if (!found.impossible.empty() && found.last.p_anything <= c.alpha_given(!found.findings.empty()))
+    out.statements.push_back(fmt::format("with sizes beyond what is possible, these would explain what is left: {}",
+                                         fmt::join(found.impossible, ", ")));
   const Search stands = what_stands(c, found, out);
   describe_repeats(c, found, out);
   describe_alignments(c, found, out);

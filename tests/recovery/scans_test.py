@@ -4,10 +4,13 @@
 usage: scans_test.py path/to/gumshoe [unittest options]
        scans_test.py path/to/gumshoe --score N      # N sets of each kind: a table of what was found
 """
+import json
 import math
 import pathlib
 import random
+import subprocess
 import sys
+import tempfile
 import unittest
 
 import kinds
@@ -24,6 +27,7 @@ KINDS = {
     "the chuck presses three lobes": {"clamping_lobes"},
     "the spindle grows": {"thermal_growth"},
     "C rises and falls twice a turn": {"c_axial_motion", "clamping_lobes"},
+    "the indication bends more than any sensor's": set(),
 }
 
 SCENARIO = f"""schema = 1
@@ -107,6 +111,8 @@ def data(kind, seed):
                 if kind == "the spindle grows":  # two time constants
                     t = time - start
                     d += 4e-3 * abs(size) * (0.7 * (1 - math.exp(-t / 900)) + 0.3 * (1 - math.exp(-t / 3600)))
+                if kind == "the indication bends more than any sensor's":  # 3e6 um at 1 mm; the card allows 1e3 um
+                    d += 3e3 * d**3
                 cells = (setup, math.degrees(B), math.degrees(theta), radius, time, math.degrees(part_angle))
                 rows.append(",".join(f"{x:.10g}" for x in (*cells, d + draw.gauss(0, NOISE))))
                 time += 20
@@ -133,6 +139,15 @@ class Scans(unittest.TestCase):
         for kind in ("the part has three lobes", "the chuck presses three lobes"):
             names = found(kind, 1)
             self.assertTrue(names and KINDS[kind] & set(names[0]), (kind, names))
+
+    def test_an_effect_of_an_impossible_size_is_no_name(self):
+        # By its signature sensor_nonlinearity explains them; by the whole model its size ends at its limit, and nothing is explained.
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = write(pathlib.Path(folder), "the indication bends more than any sensor's", 1)
+            words = [GUMSHOE, "trace", scenario, "--out", scenario.with_name("t.h5"), "--format", "json"]
+            trace = json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
+        self.assertFalse([f["members"] for f in trace["findings"] if "sensor_nonlinearity" in f["members"]])
+        self.assertIn("with sizes beyond what is possible, these would explain what is left: sensor_nonlinearity", trace["statements"])
 
 
 if __name__ == "__main__":

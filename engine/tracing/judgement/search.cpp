@@ -27,7 +27,16 @@ namespace {
 Index sizes(const Candidate& a) { return a.name.starts_with("harmonic:") ? 1 : a.columns.cols(); }
 
 constexpr const char *alone = "named", *in_class = "in the class";
+constexpr const char* impossible = "refused: no such effect has the size that would explain the residuals";
+constexpr const char* not_by_the_model = "refused: by the whole model it explains little of what its signature does";
 constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
+
+bool at_a_limit(const Term& term) {
+  for (Index j = 0; j < term.size.size(); ++j)
+    if (const Amplitude& a = term.candidate.amplitudes[index(j)]; term.size[j] == a.low || term.size[j] == a.high)
+      return true;
+  return false;
+}
 
 std::string unknown_effect(const std::vector<std::string>& depends_on) {
   return fmt::format("an unknown effect of {}", fmt::join(depends_on, " and "));
@@ -144,7 +153,14 @@ private:
     if (!sought_.names) return take_shape();
     const auto plain =
         evidence_->best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
-    const std::vector<Trial> tried = physical_trials(*evidence_);
+    std::vector<Trial> denied;
+    const std::vector<Trial> tried = physical_trials(*evidence_, denied);
+    out_.impossible.clear();
+    for (const Trial& t : denied) {
+      const bool limited = at_a_limit(t.fit.terms.back());
+      outcomes_[t.candidate] = limited ? impossible : not_by_the_model;
+      if (limited) out_.impossible.push_back(candidate(t.candidate).name);
+    }
     const auto score_of_best = [&](const std::vector<std::size_t>& of) {
       return of.empty() ? 0 : evidence_->score(of[0]);
     };
@@ -220,7 +236,7 @@ private:
     for (std::size_t i = 1; i < tried.size(); ++i) {
       const std::size_t rival = tried[i].candidate;
       if (tried[i].implausible && !best.implausible) {
-        outcomes_[rival] = "refused: no such effect has the size that would explain the residuals";
+        outcomes_[rival] = impossible;
         continue;
       }
       const double lead = best.score - tried[i].score;

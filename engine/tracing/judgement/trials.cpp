@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/beside.h"
@@ -10,7 +11,7 @@
 
 namespace gumshoe::tracing {
 
-std::vector<Trial> physical_trials(const Evidence& evidence) {
+std::vector<Trial> physical_trials(const Evidence& evidence, std::vector<Trial>& denied) {
   // What only one rod or one tool has asks for more: it must lead what all have.
   auto physical =
       evidence.best_of([](const Candidate& a) { return a.physical() && !a.in_part(); }, criteria.most_refitted);
@@ -25,11 +26,15 @@ std::vector<Trial> physical_trials(const Evidence& evidence) {
   }
   // Those that do not pass by themselves may be members of the class of one that does.
   const Assessment& assessment = evidence.assessment();
-  const auto counts = [&](const Trial& t) {
+  const auto passes_by_signature = [&](const Trial& t) {
     return passes(assessment.p[t.candidate], assessment.threshold, t.ratio, evidence.limit(t.candidate));
+  };
+  const auto counts = [&](const Trial& t) {
+    return passes_by_signature(t) && still_counts(t.ratio, evidence.limit(t.candidate));
   };
   std::ranges::sort(out, std::ranges::greater{}, &Trial::worth);
   const auto best = std::ranges::find_if(out, counts);
+  std::copy_if(out.begin(), best, std::back_inserter(denied), passes_by_signature);
   if (best == out.end()) return {};
   std::rotate(out.begin(), best, best + 1);
   return out;

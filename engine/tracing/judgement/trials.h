@@ -6,7 +6,9 @@ namespace gumshoe::tracing {
 
 /// Effects and declared quantities that could win. The first passes by itself; the others may be members of its class.
 /// Empty: none passes.
-std::vector<Trial> physical_trials(const Evidence& evidence);
+/// @param denied  gets those before the first that pass by their signatures, but explain little by the whole model: the
+///                size that they would need is beyond a limit of the card, where it stays, or bends what it does
+std::vector<Trial> physical_trials(const Evidence& evidence, std::vector<Trial>& denied);
 
 /// Shapes that pass by themselves, in the order in which they are there (shape_order.h), a simpler one of the same with
 /// another finding before them.
