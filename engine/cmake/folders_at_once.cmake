@@ -1,6 +1,6 @@
-# Compiles the files of a folder together, twelve at a time: a clean build in two thirds of the time, for what they
-# include and instantiate in common. Names in anonymous namespaces are therefore unique within a folder. Tables of
-# fields, which abbreviate their rows' types, are compiled alone.
+# Compiles the files of a folder together, twelve at a time. They take 0.6 times as long, for what they include and
+# instantiate in common. Names in anonymous namespaces are therefore unique within a folder. Tables of fields, which
+# abbreviate their rows' types, are compiled alone.
 function(gumshoe_compile_folders_at_once target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   foreach(source ${ARGN})
