@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -235,7 +236,7 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
     pass = ordered->first_pass(ends);
   }
   Moments m = first_moments(values, threads, pass ? &pass->sieve : nullptr);
-  if (ordered) ordered->finish_first(std::move(pass), m.valid);
+  if (ordered) ordered->finish_first(std::exchange(pass, nullptr), m.valid);
   s.valid = m.valid;
   s.failed = values.size() - m.valid;
   s.estimate = m.mean;

@@ -157,12 +157,9 @@ Search what_stands(const TraceContext& c, const Search& found, Trace& out) {
   return left;
 }
 
-/// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too;
-/// what an effect explains that is never as large does not jump.
+/// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.
 bool jumps_not_crossed(const TraceContext& c, const Search& found, bool vetoed) {
-  if (found.jumping.empty() || !found.impossible.empty() || vetoed ||
-      found.last.p_anything > c.alpha_given(!found.findings.empty()))
-    return false;
+  if (found.jumping.empty() || vetoed || found.last.p_anything > c.alpha_given(!found.findings.empty())) return false;
   return std::ranges::none_of(found.findings, [](const SearchFinding& f) {
     return f.finding.kind == Kind::scatter && f.finding.depends_on != std::vector<std::string>{"reading"};
   });
