@@ -37,6 +37,8 @@ struct Amplitude {
   /// Whether a size lies far above the card's typical ones, or has a sign that no such effect has.
   bool far_too_large(double size) const;
   bool of_wrong_sign(double size) const { return positive && size < 0; }
+  /// Whether a fitted size ended at a limit of the card.
+  bool at_limit(double size) const { return size == low || size == high; }
 };
 
 /// One signature that is tried.

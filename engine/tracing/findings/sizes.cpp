@@ -97,7 +97,7 @@ void remark_on_size(const Term& term, Finding& finding) {
     if (const double times = std::fabs(term.size[j]) / a.declared; a.declared > 0 && times > criteria.implausible_shift)
       finding.remarks.push_back(
           fmt::format("the value differs by {:.0f} times its declared standard uncertainty; {}", times, suspicion));
-    if (term.size[j] == a.low || term.size[j] == a.high)
+    if (a.at_limit(term.size[j]))
       finding.remarks.push_back(fmt::format("{} is at a limit of its range; {}", a.name, suspicion));
   }
   if (!term.candidate.held.empty() && !term.candidate.shape.empty())

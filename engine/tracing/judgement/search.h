@@ -32,8 +32,8 @@ struct Search {
   std::vector<RankedCandidate> ranking; ///< of the first round
   std::vector<DetectionLimit> limits;   ///< of the first round
   std::vector<std::string> jumping;     ///< candidates of the last round with whose sizes readings jump
-  std::vector<std::string>
-      impossible; ///< effects of the last round that explain the residuals, with sizes that none has
+  /// Effects of the last round that explain what is left, but only with sizes beyond their limits.
+  std::vector<std::string> impossible;
   bool capped = false;                  ///< ended at criteria.most_findings while more would be found
   std::vector<std::string> dropped;     ///< sentences on findings that another one made superfluous
   int tried = 0;                        ///< signatures and variance components of the first round

@@ -35,6 +35,7 @@ std::vector<std::string> step_back(const TraceContext& c, Search& s) {
   s.dropped = left.dropped;
   s.found = s.stages.back().fit;
   s.capped = false;
+  s.impossible.clear();
   const TraceContext more = further(c);
   s.last = Evidence(more, s.found, s.findings.size(), {}).assessment();
   if (look_for_scatter(s.last, more.alpha))

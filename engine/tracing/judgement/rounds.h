@@ -1,0 +1,18 @@
+#pragma once
+/// One search: rounds that each take in what explains the readings best, until nothing more counts.
+#include "tracing/judgement/search.h"
+
+namespace gumshoe::tracing {
+
+struct Sought {
+  bool names = true;            ///< effects and declared quantities are candidates, and not shapes alone
+  bool shapes_for_noise = true; ///< a shape may be there in place of larger noise
+};
+
+/// What the ranking says of a candidate that was taken.
+inline constexpr const char *alone = "named", *in_class = "in the class";
+
+/// Fits the declared model, then adds terms. Findings have no sizes yet (findings/).
+Search search_in_rounds(const TraceContext& context, Sought sought = {});
+
+} // namespace gumshoe::tracing
