@@ -33,7 +33,7 @@ struct Source {
 };
 
 /// Sums over samples of what differs from the error at the estimates.
-struct AtPoint {
+struct SumsAtPoint {
   double count = 0, d[3] = {}, square[3] = {}, length = 0, length_square = 0;
 };
 
@@ -139,8 +139,8 @@ private:
     return out;
   }
 
-  /// AtPoint of the samples [first, first + count) at every point.
-  void add(const VolumeMap& map, std::size_t first, std::size_t count, AtPoint* sums) const {
+  /// Sums of the samples [first, first + count) at every point.
+  void add(const VolumeMap& map, std::size_t first, std::size_t count, SumsAtPoint* sums) const {
     const std::size_t n = padded(count);
     const std::vector<double> columns = drawn(first, n), fixed = row(true), null = row(false);
     std::vector<models::Column> actual, without;
@@ -160,7 +160,7 @@ private:
       for (std::size_t k = from; k < to; ++k) {
         const VolumePoint& p = map.points[k];
         const double mean[] = {p.error_x, p.error_y, p.error_z}, length = std::hypot(mean[0], mean[1], mean[2]);
-        AtPoint& sum = sums[k];
+        SumsAtPoint& sum = sums[k];
         for (std::size_t i = 0; i < count; ++i) {
           if (here.status[i] != 0) continue;
           double e[3];
@@ -180,7 +180,7 @@ private:
   void moments(VolumeMap& out, int threads) const {
     const std::size_t n = out.points.size(), samples = volume_.samples,
                       blocks = (samples + samples_at_once - 1) / samples_at_once;
-    std::vector<AtPoint> sums(blocks * n);
+    std::vector<SumsAtPoint> sums(blocks * n);
     propagation::parallel_for(blocks, threads, [&](std::size_t b) {
       const std::size_t first = b * samples_at_once;
       add(out, first, std::min(samples_at_once, samples - first), &sums[b * n]);
@@ -189,7 +189,7 @@ private:
       const auto total = [&](auto member) {
         return ordered_sum(blocks, [&](std::size_t b) { return member(sums[b * n + k]); });
       };
-      const double count = total([](const AtPoint& s) { return s.count; });
+      const double count = total([](const SumsAtPoint& s) { return s.count; });
       out.failed = std::max(out.failed, samples - static_cast<std::uint64_t>(count));
       const auto moment = [&](double sum, double square, double& mean, double& u) {
         mean += sum / count;
@@ -200,10 +200,10 @@ private:
       double* const u[] = {&p.u_x, &p.u_y, &p.u_z};
       p.length = std::hypot(p.error_x, p.error_y, p.error_z);
       for (std::size_t a = 0; a < 3; ++a)
-        moment(total([=](const AtPoint& s) { return s.d[a]; }), total([=](const AtPoint& s) { return s.square[a]; }),
-               *mean[a], *u[a]);
-      moment(total([](const AtPoint& s) { return s.length; }), total([](const AtPoint& s) { return s.length_square; }),
-             p.length, p.u_length);
+        moment(total([=](const SumsAtPoint& s) { return s.d[a]; }),
+               total([=](const SumsAtPoint& s) { return s.square[a]; }), *mean[a], *u[a]);
+      moment(total([](const SumsAtPoint& s) { return s.length; }),
+             total([](const SumsAtPoint& s) { return s.length_square; }), p.length, p.u_length);
     }
   }
 

@@ -14,7 +14,7 @@
 namespace gumshoe {
 namespace {
 
-constexpr std::size_t most_lines_refused = 20;
+constexpr std::size_t most_told = 20;
 
 /// Blanks, tabs and no-break spaces (U+00A0, U+202F), which spreadsheets put around numbers.
 constexpr std::string_view spaces[] = {" ", "\t", "\xC2\xA0", "\xE2\x80\xAF"};
@@ -265,7 +265,7 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
   if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "write a header and rows"}});
   reader.skip_to(layout.rows);
   const int below = layout.rows > 0 ? layout.rows - csv.header.front().line : 1;
-  for (std::vector<CsvCell> row; problems.size() < most_lines_refused && reader.next(row);) {
+  for (std::vector<CsvCell> row; problems.size() < most_told && reader.next(row);) {
     // A control that goes on with a log writes its head again.
     if (csv.header.size() > 1 && std::ranges::equal(row, csv.header, {}, &CsvCell::text, &CsvCell::text)) {
       reader.skip_to(row.front().line + below);
@@ -287,7 +287,7 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
   drop_empty_column(csv);
   std::set<std::string_view> names; // a line that is no header may have hundreds of thousands
   for (const CsvCell& cell : csv.header) {
-    if (problems.size() >= most_lines_refused) break;
+    if (problems.size() >= most_told) break;
     if (cell.text.empty())
       problems.push_back({csv.at(cell), "a column has no name", "", ""});
     else if (!names.insert(cell.text).second)
@@ -334,11 +334,14 @@ Csv join_csv(std::vector<Csv> parts, const std::string& name,
   return out;
 }
 
+std::string csv_quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  return text.find_first_of(",\"\n\r") == std::string::npos ? text : csv_quoted(text);
 }
 
 Csv read_csv(const std::string& path, std::size_t limit) { return parse_csv(read_data_file(path, limit), path); }

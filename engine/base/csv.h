@@ -56,7 +56,8 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
 Csv join_csv(std::vector<Csv> parts, const std::string& name,
              const std::vector<std::pair<std::string, std::vector<std::string>>>& added);
 
-/// A cell as a table separated by commas takes it: between quotes where it must be.
+/// A cell as a table separated by commas takes it: between quotes, its own doubled; csv_cell only where it must be.
+std::string csv_quoted(const std::string& text);
 std::string csv_cell(const std::string& text);
 
 /// parse_csv of a file; refuses files of more than `limit` bytes.

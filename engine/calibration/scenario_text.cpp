@@ -44,12 +44,6 @@ Node measure_node(double si, const std::string& unit, const std::string& si_unit
   return unit == "1" ? number_node(shown) : text_node(fmt::format("{} {}", shown, unit));
 }
 
-Node* find_member(Node& table, const std::string& key) {
-  for (Member& m : table.members)
-    if (m.key == key) return &m.value;
-  return nullptr;
-}
-
 Node& member(Node& table, const std::string& key) {
   if (Node* known = find_member(table, key)) return *known;
   table.members.push_back({key, 0, 0, {}});

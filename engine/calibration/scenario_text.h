@@ -13,8 +13,6 @@ scenario::Node number_node(double value);
 scenario::Node list_node(std::vector<scenario::Node> items);
 /// "5.2 mm", or a bare number without dimension. `difference`: of an uncertainty or a shift.
 scenario::Node measure_node(double si, const std::string& unit, const std::string& si_unit, bool difference);
-/// Null if there is none.
-scenario::Node* find_member(scenario::Node& table, const std::string& key);
 /// Made if there is none.
 scenario::Node& member(scenario::Node& table, const std::string& key);
 void erase_member(scenario::Node& table, const std::string& key);

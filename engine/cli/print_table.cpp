@@ -5,6 +5,7 @@
 
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
+#include "base/csv.h"
 #include "cli/print.h"
 #include "cli/print_studies.h"
 
@@ -12,12 +13,6 @@ namespace gumshoe::cli {
 
 namespace {
 using namespace analysis;
-
-std::string in_quotes(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
 
 /// One line of a CSV table: names in the first pass, then values.
 struct CsvLine {
@@ -46,7 +41,7 @@ void add_cells(CsvLine& line, const Fields<Row>& fields, const Row& row, const p
               cell = fmt::format("{:.{}g}", converted(value, field.unit, unit, of_output),
                                  field.unit.in == In::point ? 15 : 6);
             else if constexpr (std::is_same_v<T, std::string>)
-              cell = in_quotes(value);
+              cell = csv_quoted(value);
             else
               cell = fmt::format("{}", value);
           },
@@ -137,7 +132,7 @@ void print_csv(const Results& r, bool budget) {
     else
       for (const Contribution& c : r.budgets[o].contributions)
         print([&](CsvLine& text) {
-          text.add("output", in_quotes(output.name));
+          text.add("output", csv_quoted(output.name));
           add_cells(text, contribution_fields, c, output);
         });
   }

@@ -3,14 +3,10 @@
 /// is a NaN, a pole is infinite, and outside the domain the result is a NaN. Errors are a few units in the last place.
 /// They are built from lane_functions.h, so that the bits depend neither on the instruction set nor on neighbouring
 /// lanes. elementary.h offers them for every scalar and has the table of domains.
-#include <limits>
-
+#include "base/special_values.h"
 #include "math/lane_functions.h"
 
 namespace gumshoe::elementary {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <class L> L sqrt_lane(const L& x) { return xsimd::sqrt(x); }
 
@@ -45,7 +41,7 @@ template <class L> L exp_whole_lane(const L& x) {
 
 /// Completes a logarithm at and below zero, and at infinity.
 template <class L> L outside_of_log(const L& x, const L& inside) {
-  L y = xsimd::select(x > L(0.0), inside, L(not_a_number));
+  L y = xsimd::select(x > L(0.0), inside, L(nan));
   y = xsimd::select(x == L(0.0), L(-infinity), y);
   return xsimd::select(x == L(infinity), x, y);
 }
@@ -122,8 +118,8 @@ template <class L> L pow_lane(const L& x, const L& given) {
   r = xsimd::select(plain, r, at_end);
   const auto odd = whole(y) && !whole(L(0.5) * y);
   r = xsimd::select((x < L(0.0)) && odd, -r, r);
-  r = xsimd::select((x < L(0.0)) && !whole(y), L(not_a_number), r);
-  r = xsimd::select((x == x) && (given == given), r, L(not_a_number));
+  r = xsimd::select((x < L(0.0)) && !whole(y), L(nan), r);
+  r = xsimd::select((x == x) && (given == given), r, L(nan));
   return xsimd::select(given == L(0.0), L(1.0), r);
 }
 

@@ -12,8 +12,6 @@
 namespace gumshoe::quantities {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
 struct Moments {
   double mean, variance, kurtosis, skewness = 0;
 };
@@ -77,7 +75,7 @@ Moments of_values(const Distribution& d) {
     m3 += weight(i) * deviation * deviation * deviation;
     m4 += weight(i) * fourth(deviation);
   }
-  if (!(m2 > 0)) return {shift + mean, m2, not_a_number, not_a_number};
+  if (!(m2 > 0)) return {shift + mean, m2, nan, nan};
   return {shift + mean, m2, m4 / (m2 * m2), m3 / std::pow(m2, 1.5)};
 }
 
@@ -85,7 +83,7 @@ Moments moments(const Distribution& d) {
   const auto& p = d.parameters;
   switch (d.family) {
   case Family::constant:
-    return {p[0], 0, not_a_number, not_a_number};
+    return {p[0], 0, nan, nan};
   case Family::rectangular:
     return {(p[0] + p[1]) / 2, (p[1] - p[0]) * (p[1] - p[0]) / 12, 9.0 / 5};
   case Family::curvilinear_trapezoid:
@@ -100,8 +98,8 @@ Moments moments(const Distribution& d) {
     return {p[0], p[1] * p[1], 3};
   case Family::t:
     // With one degree of freedom or less no expectation exists; the centre stands in as the estimate.
-    return {p[0], p[2] > 2 ? p[1] * p[1] * p[2] / (p[2] - 2) : infinity, p[2] > 4 ? 3 + 6 / (p[2] - 4) : not_a_number,
-            p[2] > 3 ? 0 : not_a_number};
+    return {p[0], p[2] > 2 ? p[1] * p[1] * p[2] / (p[2] - 2) : infinity, p[2] > 4 ? 3 + 6 / (p[2] - 4) : nan,
+            p[2] > 3 ? 0 : nan};
   case Family::exponential:
     return {p[0], p[0] * p[0], 9, 2};
   case Family::gamma:
@@ -118,7 +116,7 @@ Moments moments(const Distribution& d) {
   case Family::empirical:
     return of_values(d);
   }
-  return {not_a_number, not_a_number, not_a_number, not_a_number};
+  return {nan, nan, nan, nan};
 }
 
 } // namespace

@@ -68,8 +68,8 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
 /// words stand for numbers.
 std::string column_of(const Node& node) {
   if (node.kind == Node::Kind::text) return node.text;
-  const Node* const column = member(node, "column");
-  return column && column->kind == Node::Kind::text && !member(node, "map") ? column->text : "";
+  const Node* const column = find_member(node, "column");
+  return column && column->kind == Node::Kind::text && !find_member(node, "map") ? column->text : "";
 }
 
 void note_without_unit(const Symbol& symbol, const Node& column, Declared& out) {
@@ -95,16 +95,16 @@ void add_conditions(const Node* named, const std::string& path, const std::map<s
 
 /// Conditions that only [data] or readouts name, and the units of indications that [data] states.
 void add_data(Table& top, Declared& out, Problems& problems) {
-  const Node* const data = member(top.node(), "data");
+  const Node* const data = find_member(top.node(), "data");
   const auto units = stated_units(data);
-  if (data) add_conditions(member(*data, "conditions"), "data.conditions", units, out, problems);
-  const Node* indications = member(top.node(), "indications");
+  if (data) add_conditions(find_member(*data, "conditions"), "data.conditions", units, out, problems);
+  const Node* indications = find_member(top.node(), "indications");
   if (!indications) return;
   for (const Member& indication : indications->members) {
-    const Node* readings = member(indication.value, "readings");
+    const Node* readings = find_member(indication.value, "readings");
     if (!readings) continue;
     const std::string path = fmt::format("indications.{}.readings", indication.key);
-    add_conditions(member(*readings, "conditions"), path + ".conditions", units, out, problems);
+    add_conditions(find_member(*readings, "conditions"), path + ".conditions", units, out, problems);
     const std::string unit = unit_of_column(*readings, units);
     const auto symbol = std::ranges::find(out.indications, indication.key, &Symbol::name);
     if (unit.empty() && symbol != out.indications.end()) note_without_unit(*symbol, *readings, out);

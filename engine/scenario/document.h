@@ -28,7 +28,8 @@ struct Member {
 };
 
 /// The value of a key of a table; null without it.
-const Node* member(const Node& table, std::string_view key);
+const Node* find_member(const Node& table, std::string_view key);
+Node* find_member(Node& table, std::string_view key);
 
 /// Throws InputError with the place of the first error of syntax.
 Node parse_document(const std::string& text, const std::string& file);

@@ -215,8 +215,8 @@ private:
   }
 
   const Node& place(const Draw& d) const {
-    const Node* table = member(document_, "quantities");
-    const Node* q = table ? member(*table, d.quantity) : nullptr;
+    const Node* table = find_member(document_, "quantities");
+    const Node* q = table ? find_member(*table, d.quantity) : nullptr;
     return q ? *q : document_;
   }
 
@@ -263,8 +263,8 @@ void EarlierResults::state_units(Node& document, Problems& problems) {
   for (Member& section : document.members) {
     if (section.key != "quantities") continue;
     for (Member& q : section.value.members) {
-      const Node* from = member(q.value, "from");
-      if (!from || member(q.value, "unit")) continue;
+      const Node* from = find_member(q.value, "from");
+      if (!from || find_member(q.value, "unit")) continue;
       // What cannot be read is told here: without its unit, formulas would seem to be wrong.
       const EarlierOutput* output = open(*from, "quantities." + q.key + ".from", problems);
       if (!output) continue;

@@ -12,7 +12,7 @@ namespace gumshoe::scenario {
 namespace {
 
 constexpr std::size_t longest_name = 255; ///< bytes that a file system gives a name
-constexpr const char* such_a_name = "write a name such as \"axis_{run}.csv\"";
+constexpr const char* name_remedy = "write a name such as \"axis_{run}.csv\"";
 
 bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -50,10 +50,10 @@ FilePattern::FilePattern(const std::string& pattern) : pattern_(pattern) {
   const std::filesystem::path path(pattern);
   folder_ = path.parent_path().string();
   if (folder_.find_first_of("*{") != std::string::npos)
-    throw InputError("the folder's name is a pattern", "only the file's own name may be one", such_a_name);
+    throw InputError("the folder's name is a pattern", "only the file's own name may be one", name_remedy);
   const std::string name = path.filename().string();
   if (name.size() > longest_name)
-    throw InputError("the file's name is too long", fmt::format("it may have {} bytes", longest_name), such_a_name);
+    throw InputError("the file's name is too long", fmt::format("it may have {} bytes", longest_name), name_remedy);
   fixed_.emplace_back();
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] != '*' && name[i] != '{') {
@@ -64,9 +64,9 @@ FilePattern::FilePattern(const std::string& pattern) : pattern_(pattern) {
     if (name[i] == '{') {
       const std::size_t end = name.find('}', i);
       const std::string label = end == std::string::npos ? "" : name.substr(i + 1, end - i - 1);
-      if (label.empty()) throw InputError("a brace is not closed, or holds no name", "", such_a_name);
+      if (label.empty()) throw InputError("a brace is not closed, or holds no name", "", name_remedy);
       if (std::ranges::find(names_, label) != names_.end())
-        throw InputError(fmt::format("'{{{}}}' stands there twice", label), "", such_a_name);
+        throw InputError(fmt::format("'{{{}}}' stands there twice", label), "", name_remedy);
       gap = static_cast<int>(names_.size());
       names_.push_back(label);
       i = end;
@@ -101,7 +101,7 @@ std::vector<FilePattern::Match> FilePattern::matches() const {
     Tried tried;
     if (match(file, 0, 0, tried, m)) out.push_back(std::move(m));
   }
-  if (out.empty()) throw InputError("no file has such a name", "", such_a_name);
+  if (out.empty()) throw InputError("no file has such a name", "", name_remedy);
   return out;
 }
 

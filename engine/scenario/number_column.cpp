@@ -45,23 +45,23 @@ Shape number_column_shape() { return shape::any_of({shape::text(), shape::table(
 
 std::map<std::string, std::string> stated_units(const Node* data) {
   std::map<std::string, std::string> out;
-  if (const Node* units = data ? member(*data, "units") : nullptr)
+  if (const Node* units = data ? find_member(*data, "units") : nullptr)
     for (const Member& m : units->members)
       if (m.value.kind == Node::Kind::text) out[m.key] = m.value.text;
   return out;
 }
 
 std::string unit_of_column(const Node& node, const std::map<std::string, std::string>& units) {
-  if (member(node, "clock")) return "s";
-  if (member(node, "sense")) return "1";
-  if (const Node* unit = member(node, "unit"); unit && unit->kind == Node::Kind::text) return unit->text;
-  if (const Node* map = member(node, "map"))
+  if (find_member(node, "clock")) return "s";
+  if (find_member(node, "sense")) return "1";
+  if (const Node* unit = find_member(node, "unit"); unit && unit->kind == Node::Kind::text) return unit->text;
+  if (const Node* map = find_member(node, "map"))
     for (const Member& m : map->members)
       if (m.value.kind == Node::Kind::text) try {
           return units::parse(m.value.text).unit;
         } catch (const InputError&) { // told where the map is read
         }
-  const Node* const column = node.kind == Node::Kind::text ? &node : member(node, "column");
+  const Node* const column = node.kind == Node::Kind::text ? &node : find_member(node, "column");
   const auto known = column ? units.find(column->text) : units.end();
   return known == units.end() ? "" : known->second;
 }
@@ -71,7 +71,7 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
   const Node* const node = parent.find(key);
   if (!node) return std::nullopt;
   const Node stated = column_table(*node);
-  auto table = scenario::as_table(stated, parent.path(key), parent.problems());
+  auto table = as_table(stated, parent.path(key), parent.problems());
   if (!table) return std::nullopt;
   table->declare(number_column_keys());
   const std::size_t problems = parent.problems().size();

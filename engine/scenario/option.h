@@ -70,7 +70,7 @@ template <class Section> std::string explained_changes(const Options<Section>& o
 
 namespace option {
 
-/// Of samples and seeds: beyond it a scenario asks for what cannot be.
+/// The largest number of samples, and the largest seed, that a scenario may ask for.
 inline constexpr std::int64_t largest_whole = std::int64_t{1} << 40;
 
 /// A key that its section reads itself.

@@ -10,14 +10,8 @@
 namespace gumshoe::scenario {
 namespace {
 
-const Node* member(const Node* table, const std::string& key) {
-  if (!table || table->kind != Node::Kind::table) return nullptr;
-  const auto it = std::ranges::find(table->members, key, &Member::key);
-  return it == table->members.end() ? nullptr : &it->value;
-}
-
 PlanColumn* find(std::vector<PlanColumn>& columns, const Node& name) {
-  const Node* const column = name.kind == Node::Kind::table ? member(&name, "column") : &name;
+  const Node* const column = name.kind == Node::Kind::table ? find_member(name, "column") : &name;
   if (!column || column->kind != Node::Kind::text) return nullptr;
   const auto it = std::ranges::find(columns, column->text, &PlanColumn::header);
   return it == columns.end() ? nullptr : &*it;
@@ -26,7 +20,7 @@ PlanColumn* find(std::vector<PlanColumn>& columns, const Node& name) {
 /// Words that stand for numbers: map = { up = 1, down = -1 }.
 std::vector<std::pair<std::string, double>> map_of(const Node& column, const std::string& si_unit) {
   std::vector<std::pair<std::string, double>> out;
-  const Node* const map = member(&column, "map");
+  const Node* const map = find_member(column, "map");
   for (const Member& m : map ? map->members : std::vector<Member>{}) {
     if (m.value.kind != Node::Kind::text) {
       out.emplace_back(m.key, m.value.number);
@@ -39,17 +33,17 @@ std::vector<std::pair<std::string, double>> map_of(const Node& column, const std
 }
 
 void fill(std::vector<PlanColumn>& columns, const Node& of, const ModelCard& model, const Node* data) {
-  if (const Node* labels = member(&of, "labels"))
+  if (const Node* labels = find_member(of, "labels"))
     for (const Member& m : labels->members)
       if (PlanColumn* column = find(columns, m.value)) {
         column->holds = PlanColumn::Holds::label;
         column->label = m.key;
       }
-  if (const Node* conditions = member(&of, "conditions"))
+  if (const Node* conditions = find_member(of, "conditions"))
     for (const Member& m : conditions->members)
       for (std::size_t c = 0; c < model.conditions.size(); ++c) {
         PlanColumn* const column = model.conditions[c].name == m.key ? find(columns, m.value) : nullptr;
-        if (!column || member(&m.value, "clock")) continue; // the time of day is read at the machine
+        if (!column || find_member(m.value, "clock")) continue; // the time of day is read at the machine
         column->holds = PlanColumn::Holds::condition;
         column->condition = c;
         column->si_unit = model.conditions[c].si_unit;
@@ -110,7 +104,7 @@ std::vector<PlanColumn> plan_columns(const PlanScope& scope, const std::vector<A
   if (context.data) fill(out, *context.data, scope.model, context.data);
   if (scope.indications)
     for (const Member& m : scope.indications->members)
-      if (const Node* readings = member(&m.value, "readings")) fill(out, *readings, scope.model, context.data);
+      if (const Node* readings = find_member(m.value, "readings")) fill(out, *readings, scope.model, context.data);
   add_missing(out, scope, allowed);
   return out;
 }

@@ -159,9 +159,13 @@ Node parse_document(const std::string& text, const std::string& file) {
   }
 }
 
-const Node* member(const Node& table, std::string_view key) {
+const Node* find_member(const Node& table, std::string_view key) {
   const auto it = std::ranges::find(table.members, key, &Member::key);
   return it == table.members.end() ? nullptr : &it->value;
+}
+
+Node* find_member(Node& table, std::string_view key) {
+  return const_cast<Node*>(find_member(std::as_const(table), key));
 }
 
 std::string describe(Node::Kind kind) {

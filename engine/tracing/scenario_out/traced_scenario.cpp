@@ -17,10 +17,10 @@
 namespace gumshoe::tracing {
 namespace {
 
-using calibration::find_member;
 using calibration::measure_node;
 using calibration::member;
 using calibration::text_node;
+using scenario::find_member;
 using scenario::Member;
 using scenario::Node;
 
