@@ -6,6 +6,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "tracing/criteria.h"
 #include "tracing/fit/starts.h"
 #include "unit/tracing_case.h"
 
@@ -55,6 +56,13 @@ Start best(Case& c) {
   return *out;
 }
 
+/// p-value of one signature that explains as much (2 ln L), of a constant and noise of unknown size.
+double by_chance(double ratio) {
+  if (ratio <= 0) return 1;
+  const double freedom = readings - 1, t = std::sqrt((freedom - 1) * std::expm1(ratio / freedom));
+  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom - 1), t));
+}
+
 } // namespace
 
 TEST_CASE("a narrow best size is found between those of a coarse grid", "[tracing]") {
@@ -83,14 +91,14 @@ TEST_CASE("sizes count as often as their signature turns, and without a value no
   gumshoe::tracing::Matrix at(1, 3), straight(2, 3), turning(2, 3);
   at << 1, 2, 3;
   straight << 0.9, 0.8, 0.7, 1, 1, 1; // one signature, three times as large
-  turning << 0.9, 1, 0.9, 1, 0.9, 1;  // one reading, the other, the one
+  turning << 0.9, 1, 0.9, 1, 0.9, 1;  // one reading, the other, again the one
   const std::vector<bool> valid(3, true);
   gumshoe::tracing::Starts once(Vector::Ones(2), 1, 10), each(Vector::Ones(2), 1, 10), none(Vector::Ones(2), 1, 10);
   once.add(at, straight, valid);
   each.add(at, turning, valid);
   none.add(at, straight, std::vector<bool>(3, false));
   CHECK(once.best()->tries == Approx(1).margin(1e-6));
-  CHECK(each.best()->tries == 3);
+  CHECK(each.best()->tries == 2);
   CHECK_FALSE(none.best());
 }
 
@@ -111,6 +119,45 @@ TEST_CASE("a height between those tried explains readings that jump", "[tracing]
   }
 }
 
+TEST_CASE("readings that were not fitted may jump where sizes as likely as the best say so", "[tracing]") {
+  constexpr double u = 2e-8, jump = 1e-7; // m; far beyond the noise
+  constexpr Index draws = 200;
+  Case c(mill(u));
+  int jumped = 0, foreseen = 0;
+  double expected = 0;
+  for (int set = 0; set < 12; ++set) {
+    Points at = c.simulator->estimates();
+    for (auto& reading : at) reading[c.quantity("wear_3")] -= 0.4e-6 + 0.05e-6 * set;
+    const Vector e = noise(u, static_cast<std::uint64_t>(set + 1));
+    c.measure(at, e);
+    std::vector<Index> fitted, others;
+    for (Index r = 0; r < readings; ++r) (r % 3 == set % 3 ? others : fitted).push_back(r);
+    const Fitter some(*c.experiment, *c.simulator, c.observations, fitted, 1);
+    const JointFit base = some.fit({}, 1);
+    Term term = c.term(base, "declared:wear_3");
+    const auto start = some.best_start(base, term.candidate, sizes(), step);
+    REQUIRE(start);
+    term.candidate.start.assign(start->sizes.begin(), start->sizes.end());
+    term.size = start->sizes;
+    const JointFit fit = some.fit({term}, 1);
+    REQUIRE(fit.valid);
+    const gumshoe::tracing::Matrix changes = some.across_jumps(fit, draws);
+    CHECK(some.across_jumps(base, draws).isZero(0));
+    REQUIRE(changes.cols() == draws);
+    for (const Index r : others) {
+      const double error = fit.residual[r] - e[r]; // of the prediction, without the reading's own noise
+      expected += static_cast<double>((changes.row(r).array().abs() > jump).count()) / draws;
+      if (std::fabs(error) < jump) continue;
+      ++jumped;
+      foreseen += ((changes.row(r).array() - error).abs() < jump).any();
+    }
+  }
+  CAPTURE(jumped, foreseen, expected);
+  CHECK(jumped >= 5); // of 96: else nothing is tested
+  CHECK(foreseen >= 0.9 * jumped);
+  CHECK(std::fabs(jumped - expected) < 3 * std::sqrt(expected) + 1); // several readings of a set jump together
+}
+
 TEST_CASE("sizes that are tried count so often that noise passes for one no more often than it may", "[tracing]") {
   constexpr double u = 1e-6; // no size shows above it
   Case c(mill(u));
@@ -121,12 +168,36 @@ TEST_CASE("sizes that are tried count so often that noise passes for one no more
     c.measure(c.simulator->estimates(), noise(u, static_cast<std::uint64_t>(100 + seed)));
     const Start start = best(c);
     tries += start.tries / sets;
-    if (start.ratio <= 0) continue;
-    const double freedom = readings - 1, t = std::sqrt((freedom - 1) * std::expm1(start.ratio / freedom));
-    const boost::math::students_t student(freedom - 1);
-    passed += 2 * boost::math::cdf(boost::math::complement(student, t)) * start.tries < 0.05;
+    passed += by_chance(start.ratio) * start.tries < 0.05;
   }
   CHECK(passed <= 6); // of 0.05 * 60; 7 were each to count once
   CHECK(tries > 8);   // a tooth of each reading at least changes on the way
   CHECK(tries <= 64 + 256);
+}
+
+TEST_CASE("of pairs of sizes, too, noise passes for one no more often than it may", "[tracing]") {
+  constexpr double u = 2e-6; // as large as the largest jump: a run-out takes many forms
+  Case c(mill(u));
+  constexpr int sets = 40;
+  int passed = 0;
+  double tries = 0;
+  for (int seed = 1; seed <= sets; ++seed) {
+    c.measure(c.simulator->estimates(), noise(u, static_cast<std::uint64_t>(300 + seed)));
+    const JointFit base = c.fitter->fit({}, 1);
+    const auto candidates = physical_candidates(
+        *c.experiment, *c.simulator, base.at, c.observations, criteria.secant_step * u,
+        [](const Candidate& a) { return a.name != "tool_runout"; },
+        [&](const Candidate& a, const gumshoe::tracing::Matrix& at, double apart) {
+          return c.fitter->best_start(base, a, at, apart);
+        });
+    const auto start = std::ranges::find_if(candidates, [](const Candidate& a) { return !a.start.empty(); });
+    REQUIRE(start != candidates.end());
+    tries += start->searched / sets;
+    passed += by_chance(start->exact_ratio) * start->searched < 0.05;
+    once += by_chance(start->exact_ratio) < 0.05;
+  }
+  CAPTURE(passed, tries);
+  CHECK(passed <= 5); // of 0.05 * 40; 23 were each to count once
+  CHECK(tries > 50);
+  CHECK(tries < 0.6 * (12 * 32 + 256)); // of all that were tried: neighbours are much alike
 }

@@ -108,12 +108,15 @@ private:
     return std::sqrt(after_.variance) * w.draw(criteria.noise_draws, c_.seed ^ 0xf100full);
   }
 
-  /// The same of readings that were not fitted: the scale of the noise is known to its degrees of freedom only.
-  Matrix of_unknown_scale(Matrix noise) const {
+  /// The same of readings that were not fitted: the scale of the noise is known to its degrees of freedom only, and
+  /// where readings jump with sizes that were found, they may jump elsewhere.
+  Matrix not_fitted(Matrix noise) const {
     const std::size_t freedom = rows_.size() - independent(after_.design, rows_).size();
     const Matrix chance = normals(freedom, index(noise.cols()), c_.seed ^ 0xf100full, scale_of_noise);
     for (Index j = 0; j < noise.cols(); ++j)
       noise.col(j) *= std::sqrt(static_cast<double>(freedom) / chance.col(j).squaredNorm());
+    const std::vector<Index> rows = rows_where(c_.observations, c_.observations.held_out);
+    if (!rows.empty()) noise(rows, Eigen::all) += c_.fitter.across_jumps(after_, noise.cols())(rows, Eigen::all);
     return noise;
   }
 
@@ -158,7 +161,7 @@ private:
     scored_before_ = predict(base_, base_.residual, blocks);
     scored_after_ = predict(after_, after_.residual, blocks);
     if (scored_before_.scored())
-      set_noise_alone(predict(after_, of_unknown_scale(noise_), blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
+      set_noise_alone(predict(after_, not_fitted(noise_), blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
                       rms.holdout_noise_high);
     else
       rms.holdout += "; not scored, because it has no more readings than block offsets";

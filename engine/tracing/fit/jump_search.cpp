@@ -13,6 +13,62 @@
 
 namespace gumshoe::tracing {
 
+namespace {
+
+bool starts(const Term& t) { return !t.candidate.start.empty() && std::ranges::equal(t.candidate.start, t.size); }
+
+/// Normal numbers about zero, every other column three times as far.
+Matrix around(Index rows, int batch) {
+  Matrix out = normals(index(rows), index(criteria.jump_tries), static_cast<std::uint64_t>(batch), 11);
+  for (Index k = 1; k < out.cols(); k += 2) out.col(k) *= 3;
+  return out;
+}
+
+/// Changes of the sizes found that were tried, and how much worse than the best they explain the readings.
+class Tried {
+public:
+  Tried(double freedom, Index sizes, double left_here) : freedom_(freedom), at_(Matrix::Zero(sizes, 1)), left_(1) {
+    left_[0] = left_here;
+  }
+
+  void add(const Matrix& at, const Vector& left) {
+    const Index old = at_.cols();
+    at_.conservativeResize(Eigen::NoChange, old + at.cols());
+    at_.rightCols(at.cols()) = at;
+    left_.conservativeResize(old + at.cols());
+    left_.tail(at.cols()) = left;
+  }
+  /// Those whose likelihood ratio (2 ln) to the best is not above a limit, or the best, so many at least; by column.
+  Matrix within(double limit, std::size_t least) const {
+    std::vector<Index> order(index(left_.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::ranges::stable_sort(order, std::ranges::less{}, [&](Index k) { return left_[k]; });
+    const double bound = left_[order[0]] * std::exp(limit / freedom_);
+    const auto end = std::ranges::find_if(order, [&](Index k) { return !(left_[k] <= bound); });
+    order.resize(std::min(order.size(), std::max(least, static_cast<std::size_t>(end - order.begin()))));
+    return at_(Eigen::all, order);
+  }
+  /// So many of them, each as often as it is likely; by place, ascending.
+  std::vector<Index> drawn(Index draws) const {
+    const Vector likely = (left_ / left_.minCoeff()).array().pow(-freedom_ / 2);
+    std::vector<Index> out;
+    double passed = 0;
+    for (Index k = 0; k < left_.size(); ++k) {
+      passed += likely[k] / likely.sum() * static_cast<double>(draws);
+      while (static_cast<double>(out.size()) + 0.5 < passed) out.push_back(k);
+    }
+    return out;
+  }
+  Matrix at(const std::vector<Index>& places) const { return at_(Eigen::all, places); }
+
+private:
+  double freedom_;
+  Matrix at_;
+  Vector left_;
+};
+
+} // namespace
+
 double found_size(const Term& term) {
   const auto& start = term.candidate.start;
   return std::max(Eigen::Map<const Vector>(start.data(), index(start.size())).norm(), term.size.norm());
@@ -78,6 +134,23 @@ public:
     return model_->reduce(residuals(changes, valid));
   }
 
+  /// Tries about these sizes, each batch spread as those before it that were near enough.
+  Tried explored() const {
+    const Vector widest = scale();
+    Tried tried(freedom(), count(), left(Vector::Zero(count()))[0]);
+    Matrix covariance = (criteria.jump_reach_again * widest).array().square().matrix().asDiagonal();
+    for (int batch = 0; batch < criteria.jump_samples; ++batch) {
+      const Matrix at = Matrix(covariance.llt().matrixL()) * around(count(), 1000 + batch);
+      tried.add(at, left(at));
+      const Matrix near = tried.within(limit(), criteria.tries_that_tell * index(count()));
+      covariance = near * near.transpose() / static_cast<double>(near.cols());
+      covariance.diagonal() += (criteria.finest_jump_reach * widest).array().square().matrix();
+    }
+    return tried;
+  }
+  /// 2 ln L of all sizes together, a little more than 95 %.
+  double limit() const { return criteria.decisive * static_cast<double>(count()); }
+
   /// Standard uncertainties by the straight line through the readings over these changes.
   Vector by_line(const Matrix& changes) const {
     std::vector<bool> valid;
@@ -97,8 +170,28 @@ public:
     return out;
   }
 
+  /// Changes of all readings, as they are predicted with these changes of the sizes; not a number where there is no
+  /// value.
+  Matrix predicted(const Matrix& changes) const {
+    Matrix with_none(count(), changes.cols() + 1);
+    with_none << changes, Vector::Zero(count());
+    std::vector<bool> valid;
+    Matrix left = residuals_of_all(with_none, valid);
+    const Matrix x = model_->coefficients(plain_->winsorised(plain_->take(left)));
+    const auto p = index(columns_.size());
+    left -= fit_.design.fixed(Eigen::all, columns_) * x.topRows(p) + rest_.random * x.bottomRows(x.rows() - p);
+    Matrix out = (-left.leftCols(changes.cols())).colwise() + left.col(changes.cols());
+    for (Index k = 0; k < out.cols(); ++k)
+      if (!valid[index(k)]) out.col(k).setConstant(nan);
+    return out;
+  }
+
 private:
   Matrix residuals(const Matrix& changes, std::vector<bool>& valid) const {
+    return plain_->winsorised(plain_->take(residuals_of_all(changes, valid)));
+  }
+
+  Matrix residuals_of_all(const Matrix& changes, std::vector<bool>& valid) const {
     std::vector<Variation> variations;
     std::vector<bool> within;
     for (Index k = 0; k < changes.cols(); ++k) {
@@ -120,7 +213,7 @@ private:
     Matrix all = (-in_sequence(fitter_.observations_, moved)).colwise() + fit_.residual;
     for (Index k = 0; k < all.cols(); ++k)
       if (!valid[index(k)]) all.col(k) = fit_.residual;
-    return plain_->winsorised(plain_->take(all));
+    return all;
   }
 
   const Fitter& fitter_;
@@ -132,19 +225,6 @@ private:
   std::vector<double> scale_;
   std::vector<std::pair<const Term*, Index>> jumping_; ///< terms, and the place of their first size
 };
-
-namespace {
-
-bool starts(const Term& t) { return !t.candidate.start.empty() && std::ranges::equal(t.candidate.start, t.size); }
-
-/// Normal numbers about zero, every other column three times as far.
-Matrix around(Index rows, int batch) {
-  Matrix out = normals(index(rows), index(criteria.jump_tries), static_cast<std::uint64_t>(batch), 11);
-  for (Index k = 1; k < out.cols(); k += 2) out.col(k) *= 3;
-  return out;
-}
-
-} // namespace
 
 bool Fitter::any_jumps(const JointFit& fit) const {
   return std::ranges::any_of(unknowns_, [](const FreeUnknown& u) { return u.jump > 0; }) ||
@@ -220,59 +300,14 @@ void Fitter::refine(JointFit& fit) const {
   }
 }
 
-namespace {
-
-/// Changes of the sizes found that were tried, and how much worse than the best they explain the readings.
-class Tried {
-public:
-  Tried(double freedom, Index sizes, double left_here) : freedom_(freedom), at_(Matrix::Zero(sizes, 1)), left_(1) {
-    left_[0] = left_here;
-  }
-
-  void add(const Matrix& at, const Vector& left) {
-    const Index old = at_.cols();
-    at_.conservativeResize(Eigen::NoChange, old + at.cols());
-    at_.rightCols(at.cols()) = at;
-    left_.conservativeResize(old + at.cols());
-    left_.tail(at.cols()) = left;
-  }
-  /// Those whose likelihood ratio (2 ln) to the best is not above a limit, or the best, so many at least; by column.
-  Matrix within(double limit, std::size_t least) const {
-    std::vector<Index> order(index(left_.size()));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::ranges::stable_sort(order, std::ranges::less{}, [&](Index k) { return left_[k]; });
-    const double bound = left_[order[0]] * std::exp(limit / freedom_);
-    const auto end = std::ranges::find_if(order, [&](Index k) { return !(left_[k] <= bound); });
-    order.resize(std::min(order.size(), std::max(least, static_cast<std::size_t>(end - order.begin()))));
-    return at_(Eigen::all, order);
-  }
-
-private:
-  double freedom_;
-  Matrix at_;
-  Vector left_;
-};
-
-} // namespace
-
 /// The likelihood is a step function of these sizes: their interval is the hull of the region where it is within the
-/// 95 % limit, every basin included. Tries spread as those did that were near enough.
+/// 95 % limit, every basin included.
 void Fitter::widen_across_jumps(JointFit& fit) const {
   if (!fit.valid || !any_jumps(fit)) return;
   const JumpingSizes sizes(*this, fit);
   const Index d = sizes.count();
   const Vector scale = sizes.scale();
-  const double limit = criteria.decisive * static_cast<double>(d); // of all sizes together, a little more than 95 %
-  Tried tried(sizes.freedom(), d, sizes.left(Vector::Zero(d))[0]);
-  Matrix covariance = (criteria.jump_reach_again * scale).array().square().matrix().asDiagonal();
-  for (int batch = 0; batch < criteria.jump_samples; ++batch) {
-    const Matrix at = Matrix(covariance.llt().matrixL()) * around(d, 1000 + batch);
-    tried.add(at, sizes.left(at));
-    const Matrix near = tried.within(limit, criteria.tries_that_tell * index(d));
-    covariance = near * near.transpose() / static_cast<double>(near.cols());
-    covariance.diagonal() += (criteria.finest_jump_reach * scale).array().square().matrix();
-  }
-  const Vector furthest = tried.within(limit, 1).cwiseAbs().rowwise().maxCoeff(),
+  const Vector furthest = sizes.explored().within(sizes.limit(), 1).cwiseAbs().rowwise().maxCoeff(),
                line = sizes.by_line(criteria.jump_reach_again * scale.asDiagonal() * around(d, 0));
   for (Index i = 0; i < d; ++i) {
     const Index own = sizes.own()[index(i)];
@@ -283,6 +318,19 @@ void Fitter::widen_across_jumps(JointFit& fit) const {
     fit.covariance.row(own) *= times;
     fit.covariance.col(own) *= times;
   }
+}
+
+Matrix Fitter::across_jumps(const JointFit& fit, Index draws) const {
+  if (!fit.valid || !any_jumps(fit)) return Matrix::Zero(fit.residual.size(), draws);
+  const JumpingSizes sizes(*this, fit);
+  const Tried tried = sizes.explored();
+  const std::vector<Index> drawn = tried.drawn(draws);
+  std::vector<Index> different, place;
+  for (const Index k : drawn) {
+    if (different.empty() || different.back() != k) different.push_back(k);
+    place.push_back(index(different.size()) - 1);
+  }
+  return sizes.predicted(tried.at(different))(Eigen::all, place);
 }
 
 } // namespace gumshoe::tracing

@@ -18,12 +18,6 @@ std::vector<Index> in_order(Index count, const auto& by) {
   return out;
 }
 
-/// rad; of a vector of no length, zero.
-double angle(const auto& a, const auto& b) {
-  const double lengths = a.norm() * b.norm();
-  return lengths > 0 ? std::acos(std::clamp(a.dot(b) / lengths, -1.0, 1.0)) : 0;
-}
-
 void append(Matrix& to, const Matrix& columns) {
   to.conservativeResize(Eigen::NoChange, to.cols() + columns.cols());
   to.rightCols(columns.cols()) = columns;
@@ -55,15 +49,35 @@ Matrix Starts::between_best(double step, int batch) const {
 std::optional<Start> Starts::best() const {
   const auto least = std::ranges::min_element(left_);
   if (least == left_.end() || !std::isfinite(*least)) return std::nullopt;
-  return Start{at_.col(least - left_.begin()), freedom_ * std::log(none_.squaredNorm() / *least),
-               at_.rows() == 1 ? turns() : static_cast<double>(at_.cols())};
+  return Start{at_.col(least - left_.begin()), freedom_ * std::log(none_.squaredNorm() / *least), turns()};
 }
 
+/// By the shortest tree that joins all signatures: where one of them exceeds a limit, the first does, or one that the
+/// tree joins to it and that turned so far.
 double Starts::turns() const {
-  const auto order = in_order(at_.cols(), [&](Index k) { return at_(0, k); });
+  Matrix along = moved_(Eigen::all, moving());
+  along.colwise().normalize();
+  const Index n = along.cols();
+  if (n == 0) return 1;
+  Vector nearest = Vector::Constant(n, -1); // cosine with the tree
+  std::vector<bool> joined(index(n), false);
   double out = 1;
-  for (std::size_t k = 1; k < order.size(); ++k)
-    out += std::min(1.0, criteria.turn_counts * angle(moved_.col(order[k - 1]), moved_.col(order[k])));
+  for (Index last = 0, k = 1; k < n; ++k) {
+    joined[index(last)] = true;
+    nearest = nearest.cwiseMax(along.transpose() * along.col(last));
+    Index next = -1;
+    for (Index i = 0; i < n; ++i)
+      if (!joined[index(i)] && (next < 0 || nearest[i] > nearest[next])) next = i;
+    out += std::min(1.0, criteria.turn_counts * std::acos(std::clamp(nearest[next], -1.0, 1.0)));
+    last = next;
+  }
+  return out;
+}
+
+std::vector<Index> Starts::moving() const {
+  std::vector<Index> out;
+  for (Index k = 0; k < moved_.cols(); ++k)
+    if (std::isfinite(left_[index(k)]) && moved_.col(k).squaredNorm() > 0) out.push_back(k);
   return out;
 }
 

@@ -24,6 +24,7 @@ public:
 private:
   /// As how many independent sizes they count: each as much as it turns the signature of its neighbour.
   double turns() const;
+  std::vector<Index> moving() const; ///< places of the sizes that move anything
 
   Vector none_;
   double freedom_;
