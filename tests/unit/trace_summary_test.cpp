@@ -26,3 +26,17 @@ TEST_CASE("scatter names what may be there in its place", "[tracing][verdict]") 
     CHECK(std::ranges::any_of(t.plain, [&](const std::string& line) { return line.find(words) != line.npos; }));
   }
 }
+
+TEST_CASE("readings that scatter more than declared do not agree", "[tracing][verdict]") {
+  Trace t = made::trace("nothing_found").trace;
+  t.noise.scale = 2.7;
+  for (const double p : {0.5, 0.02}) {
+    t.noise.chi_squared_p = p;
+    summarise(t);
+    CAPTURE(p, t.plain[0]);
+    const bool larger =
+        t.plain[0].find("2.7 times as declared, but noise as declared gives as much in only 2 %") != std::string::npos;
+    CHECK(larger == (p < t.alpha));
+    CHECK((t.plain[0].find("agree with the model") == std::string::npos) == larger);
+  }
+}

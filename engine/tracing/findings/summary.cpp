@@ -233,6 +233,10 @@ std::string what_residuals_show(const Trace& t) {
     return fmt::format("No candidate explains the residuals ({}). They are no larger than noise gives whose readings "
                        "resemble those before them (correlation {:.1f}): something varies slowly that is not known.",
                        shown_rms(r.before, r), t.noise.correlation);
+  if (t.noise.declared && t.noise.chi_squared_p <= t.alpha)
+    return fmt::format("No candidate explains the residuals ({}). They are no larger than noise gives that is {:.2g} "
+                       "times as declared, but noise as declared gives as much in only {:.2g} % of cases: {}",
+                       shown_rms(r.before, r), t.noise.scale, 100 * t.noise.chi_squared_p, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
                      "gives ({}).",
                      shown_rms(r.before, r), noise);
