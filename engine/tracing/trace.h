@@ -236,7 +236,7 @@ struct Trace {
   int tried = 0, draws = 0;
   double alpha = 0.05;
   bool vetoed = false;                 ///< true if the hold-out blocks rejected the findings: nothing was added
-  bool unconfirmed = false;            ///< true if they could neither confirm nor reject what was found last
+  bool unconfirmed = false;            ///< true if they could neither confirm nor reject the findings
   std::vector<std::string> statements; ///< what these data leave undetermined, and every decision a reader must see
   std::vector<std::string> plain;      ///< two sentences for a machinist
   /// The scenario with the effects found marked as estimated quantities, and what traced_scenario.h writes: their joint

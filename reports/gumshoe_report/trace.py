@@ -186,7 +186,11 @@ class Trace:
             size = f"{q.name} {with_unit(q.value, q.unit)}, 95{SPACE}% interval [{q.low}, {q.high}]"
             if getattr(f, "implausible", ""):
                 return f"Find its cause before you correct for it: a size {f.implausible} is likely an alias of another effect's."
-            return f"Check what is declared. The readings say: {size}." if f.name.startswith("declared:") else f"Correct for it: {size}."
+            if f.name.startswith("declared:"):
+                return f"Check what is declared. The readings say: {size}."
+            if getattr(self.t, "unconfirmed", 0):
+                return f"Measure another block before you correct for it: the held-out readings neither confirm nor reject it. {capitalised(size)}."
+            return f"Correct for it: {size}."
         if f.kind == "class":
             return f"Measure next: {f.suggestion}." if f.suggestion else "Other conditions must be varied to distinguish the causes."
         if f.kind == "scatter":

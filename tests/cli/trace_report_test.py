@@ -22,7 +22,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
-from gumshoe_report import names, trace, trace_figures
+from gumshoe_report import names, read, trace, trace_figures
 
 KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "lack_of_fit",
          "insufficient_data")
@@ -210,6 +210,14 @@ class Page(Made):
         with h5py.File(self.file("lack_of_fit")) as file:
             self.assertEqual(file["trace/lack_of_fit"].attrs["found"], 1)
             self.assertAlmostEqual(file["trace/outliers/residual"][0], -9.1e-6)
+
+    def test_nothing_is_corrected_for_that_held_out_readings_do_not_confirm(self):
+        self.assertIn("Correct for it: ", self.pages["named"])
+        result = read.result(self.file("named"))
+        self.assertEqual(result.trace.unconfirmed, 0)
+        result.trace.unconfirmed = 1
+        to_do = trace.Trace(result.trace).to_do(result.trace.findings[0])
+        self.assertTrue(to_do.startswith("Measure another block before you correct for it"), to_do)
 
     def test_sizes_are_rounded_by_their_uncertainty(self):
         self.assertRegex(words_of(self.pages["named"]), r"delay ?trigger_latency\.delay ?1\.520 ?0\.041 ?\[1\.430, 1\.610\] ?ms")

@@ -40,3 +40,17 @@ TEST_CASE("readings that scatter more than declared do not agree", "[tracing][ve
     CHECK((t.plain[0].find("agree with the model") == std::string::npos) == larger);
   }
 }
+
+TEST_CASE("what the held-out readings do not confirm is nothing to correct for yet", "[tracing][verdict]") {
+  for (const char* name : {"named", "two_findings"}) {
+    Trace t = made::trace(name).trace;
+    for (const bool unconfirmed : {false, true}) {
+      t.unconfirmed = unconfirmed;
+      summarise(t);
+      CAPTURE(name, unconfirmed);
+      CHECK(unconfirmed == std::ranges::any_of(t.plain, [](const std::string& line) {
+              return line.find("measure another block before you correct for anything") != line.npos;
+            }));
+    }
+  }
+}

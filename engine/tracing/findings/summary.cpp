@@ -173,7 +173,7 @@ std::string change(double before, double after, const Rms& r) {
   return fmt::format("{} from {} to {}", after < before ? "falls" : "rises", from, to);
 }
 
-std::string what_to_do(const std::vector<Finding>& found, const Rms& r) {
+std::string what_to_do(const std::vector<Finding>& found, const Rms& r, bool unconfirmed) {
   const Finding& f = found.front();
   const char* with = found.size() > 1 ? "with them" : "with it";
   if (f.kind == Kind::scatter && f.members.size() > 1)
@@ -182,12 +182,17 @@ std::string what_to_do(const std::vector<Finding>& found, const Rms& r) {
   if (f.kind == Kind::equivalence_class && !f.suggestion.empty()) return "To distinguish them, " + f.suggestion + ".";
   if (std::isfinite(r.holdout_after)) {
     const bool bad = r.holdout_after_winsorised < r.holdout_after;
-    return fmt::format("On held-out readings the error {} {}{}; noise alone gives {}.",
+    return fmt::format("On held-out readings the error {} {}{}; noise alone gives {}.{}",
                        change(r.holdout_before_winsorised, r.holdout_after_winsorised, r), with,
                        bad ? fmt::format(" (bad readings cut; the worst, {}, is off by {})", r.worst_point,
                                          shown_rms(r.worst_point_after, r))
                            : "",
-                       shown_rms(r.holdout_noise, r));
+                       shown_rms(r.holdout_noise, r),
+                       unconfirmed
+                           ? fmt::format(" They neither confirm nor reject {}: measure another block before you "
+                                         "correct for anything.",
+                                         found.size() > 1 ? "them" : "it")
+                           : "");
   }
   return fmt::format("In the training data the error {} {}; no readings were held out to check.",
                      change(r.before, r.after, r), with);
@@ -284,7 +289,7 @@ std::vector<std::string> verdict_in_words(const Trace& t) {
     if (!stand.empty()) {
       out = {what_was_found(stand.front())};
       if (stand.size() > 1) out.push_back(what_else_was_found(stand));
-      out.push_back(what_to_do(stand, r));
+      out.push_back(what_to_do(stand, r, t.unconfirmed));
     }
     if (rejected) {
       out.push_back(what_was_rejected(*rejected));

@@ -23,10 +23,13 @@ constexpr Field<Trace> search[] = {
     {"p_anything", of<&Trace::p_anything>, one, "p-value of the verdict over all tests", in_json},
     {"alpha", of<&Trace::alpha>, one, "requested false-alarm rate", in_json},
     {"draws", of<&Trace::draws>, one, "draws of the bootstrap", in_json},
-    {"capped", of<&Trace::capped>, one, "1 if the search ended at its largest number of findings, with more to be found", in_json},
+    {"capped", of<&Trace::capped>, one,
+     "1 if the search ended at its largest number of findings, with more to be found", in_json},
     {"jumps_not_crossed", of<&Trace::jumps_not_crossed>, one,
-     "1 if more than noise is left and readings jump with sizes that were tried: better ones may not have been found", in_json},
-    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected the findings", in_json}};
+     "1 if more than noise is left and readings jump with sizes that were tried: better ones may not have been found",
+     in_json},
+    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected the findings", in_json},
+    {"unconfirmed", of<&Trace::unconfirmed>, one, "1 if they could neither confirm nor reject the findings", in_json}};
 
 using F = Finding;
 constexpr Field<F> finding[] = {
