@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <functional>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -158,31 +159,39 @@ TEST_CASE("readings that were not fitted may jump where sizes as likely as the b
   CHECK(std::fabs(jumped - expected) < 3 * std::sqrt(expected) + 1); // several readings of a set jump together
 }
 
-TEST_CASE("sizes that are tried count so often that noise passes for one no more often than it may", "[tracing]") {
-  constexpr double u = 1e-6; // no size shows above it
-  Case c(mill(u));
-  constexpr int sets = 60;
+/// Sets of noise alone in which the best start passes at 0.05, and the mean number of tries for which it counts.
+struct OfNoise {
   int passed = 0;
   double tries = 0;
-  for (int seed = 1; seed <= sets; ++seed) {
-    c.measure(c.simulator->estimates(), noise(u, static_cast<std::uint64_t>(100 + seed)));
-    const Start start = best(c);
-    tries += start.tries / sets;
-    passed += by_chance(start.ratio) * start.tries < 0.05;
+};
+
+/// @param best  ratio and tries of the best start of the case's readings
+OfNoise of_noise(double u, int sets, std::uint64_t seed, const std::function<std::pair<double, double>(Case&)>& best) {
+  Case c(mill(u));
+  OfNoise out;
+  for (int set = 1; set <= sets; ++set) {
+    c.measure(c.simulator->estimates(), noise(u, seed + static_cast<std::uint64_t>(set)));
+    const auto [ratio, tries] = best(c);
+    out.tries += tries / sets;
+    out.passed += by_chance(ratio) * tries < 0.05;
   }
-  CHECK(passed <= 6); // of 0.05 * 60; 7 were each to count once
-  CHECK(tries > 8);   // a tooth of each reading at least changes on the way
-  CHECK(tries <= 64 + 256);
+  return out;
+}
+
+TEST_CASE("sizes that are tried count so often that noise passes for one no more often than it may", "[tracing]") {
+  constexpr double u = 1e-6; // no size shows above it
+  const OfNoise one = of_noise(u, 60, 100, [](Case& c) {
+    const Start start = best(c);
+    return std::pair{start.ratio, start.tries};
+  });
+  CHECK(one.passed <= 6); // of 0.05 * 60; 7 were each to count once
+  CHECK(one.tries > 8);   // a tooth of each reading at least changes on the way
+  CHECK(one.tries <= 64 + 256);
 }
 
 TEST_CASE("of pairs of sizes, too, noise passes for one no more often than it may", "[tracing]") {
   constexpr double u = 2e-6; // as large as the largest jump: a run-out takes many forms
-  Case c(mill(u));
-  constexpr int sets = 40;
-  int passed = 0;
-  double tries = 0;
-  for (int seed = 1; seed <= sets; ++seed) {
-    c.measure(c.simulator->estimates(), noise(u, static_cast<std::uint64_t>(300 + seed)));
+  const OfNoise pair = of_noise(u, 40, 300, [](Case& c) {
     const JointFit base = c.fitter->fit({}, 1);
     const auto candidates = physical_candidates(
         *c.experiment, *c.simulator, base.at, c.observations, criteria.secant_step * u,
@@ -192,11 +201,9 @@ TEST_CASE("of pairs of sizes, too, noise passes for one no more often than it ma
         });
     const auto start = std::ranges::find_if(candidates, [](const Candidate& a) { return !a.start.empty(); });
     REQUIRE(start != candidates.end());
-    tries += start->searched / sets;
-    passed += by_chance(start->exact_ratio) * start->searched < 0.05;
-  }
-  CAPTURE(passed, tries);
-  CHECK(passed <= 5); // of 0.05 * 40; 23 were each to count once
-  CHECK(tries > 50);
-  CHECK(tries < 0.6 * (12 * 32 + 256)); // of all that were tried: neighbours are much alike
+    return std::pair{start->exact_ratio, start->searched};
+  });
+  CHECK(pair.passed <= 5); // of 0.05 * 40; 23 were each to count once
+  CHECK(pair.tries > 50);
+  CHECK(pair.tries < 0.6 * (12 * 32 + 256)); // of all that were tried: neighbours are much alike
 }

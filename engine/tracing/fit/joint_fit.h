@@ -108,8 +108,8 @@ public:
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
-  /// Where readings jump with sizes that were found, the readings hardly tell the best of these from others: changes of
-  /// all readings (rows) by draws of such sizes (columns) as they are likely, all else fitted. Zero where none jump.
+  /// Changes of the predictions of all readings (rows, SI) by draws of the sizes with which readings jump (columns), in
+  /// proportion to their likelihood, all else fitted: a mill may trigger with another tooth. Zero if no size jumps.
   Matrix across_jumps(const JointFit& fit, Index draws) const;
   /// Where readings jump with a candidate's size: the best of these sizes (columns), and of others between them, in
   /// addition to a fit, by the exact model, all else fitted. None if the model has no value there.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "base/special_values.h"
 #include "tracing/criteria.h"
 #include "tracing/noise/whitened.h"
 
@@ -33,7 +33,7 @@ void Starts::add(const Matrix& at, const Matrix& reduced, const std::vector<bool
   append(moved_, (-reduced).colwise() + none_);
   for (Index k = 0; k < at.cols(); ++k) {
     const double squares = reduced.col(k).squaredNorm();
-    left_.push_back(valid[index(k)] && std::isfinite(squares) ? squares : std::numeric_limits<double>::infinity());
+    left_.push_back(valid[index(k)] && std::isfinite(squares) ? squares : infinity);
   }
 }
 
@@ -46,14 +46,19 @@ Matrix Starts::between_best(double step, int batch) const {
   return out;
 }
 
+double Starts::ratio() const {
+  const double least = left_.empty() ? infinity : std::ranges::min(left_);
+  return std::isfinite(least) ? freedom_ * std::log(none_.squaredNorm() / least) : 0;
+}
+
 std::optional<Start> Starts::best() const {
   const auto least = std::ranges::min_element(left_);
   if (least == left_.end() || !std::isfinite(*least)) return std::nullopt;
-  return Start{at_.col(least - left_.begin()), freedom_ * std::log(none_.squaredNorm() / *least), turns()};
+  return Start{at_.col(least - left_.begin()), ratio(), turns()};
 }
 
-/// By the shortest tree that joins all signatures: where one of them exceeds a limit, the first does, or one that the
-/// tree joins to it and that turned so far.
+/// If any of the statistics exceeds a limit, the first does, or an edge of the tree leads from one below the limit to
+/// one above it; the probability of that grows with the angle (Prim 1957 for the tree).
 double Starts::turns() const {
   Matrix along = moved_(Eigen::all, moving());
   along.colwise().normalize();

@@ -18,13 +18,16 @@ public:
   void add(const Matrix& at, const Matrix& reduced, const std::vector<bool>& valid);
   /// Sizes at random within about a step of each of the best (criteria.h). `batch` keys the numbers.
   Matrix between_best(double step, int batch) const;
-  /// None if the model has no value anywhere.
+  /// 2 ln L of the best over no size; zero if the model has no value anywhere.
+  double ratio() const;
+  /// The best; none if the model has no value anywhere.
   std::optional<Start> best() const;
 
 private:
-  /// As how many independent sizes they count: each as much as it turns the signature of its neighbour.
+  /// Number of independent sizes for which they count: one, and the turns along the minimum spanning tree of their
+  /// signatures, each with at most one.
   double turns() const;
-  std::vector<Index> moving() const; ///< places of the sizes that move anything
+  std::vector<Index> moving() const; ///< places of the valid sizes that change what is left
 
   Vector none_;
   double freedom_;
