@@ -46,6 +46,7 @@ def in_remark(text):
     return re.sub(r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave):[\w*^/]+", lambda m: names.readable(m[0]), text)
 
 
+UNDECIDED = "the held-out readings neither confirm nor reject it"
 UNKNOWN = "an unknown effect"
 
 
@@ -189,12 +190,14 @@ class Trace:
             if f.name.startswith("declared:"):
                 return f"Check what is declared. The readings say: {size}."
             if getattr(self.t, "unconfirmed", 0):
-                return f"Measure another block before you correct for it: the held-out readings neither confirm nor reject it. {capitalised(size)}."
+                return f"Measure another block before you correct for it: {UNDECIDED}. {capitalised(size)}."
             return f"Correct for it: {size}."
         if f.kind == "class":
             return f"Measure next: {f.suggestion}." if f.suggestion else "Other conditions must be varied to distinguish the causes."
         if f.kind == "scatter":
             return "It cannot be corrected for; include it in the uncertainty budget."
+        if f.tables and getattr(self.t, "unconfirmed", 0):
+            return f"Measure another block before you correct by the table of {names.by('*'.join(f.depends_on))} below: {UNDECIDED}."
         if f.tables:
             return f"Correct by the table of {names.by('*'.join(f.depends_on))} below; its cause is unknown."
         return "Its cause is unknown; the curve below describes it within the range of the data."

@@ -159,7 +159,7 @@ def rod_section(program):
     exchanged = program.trace("trace_rods", change=exchange)
     chi, freedom, by_setup, names = chi_squared(program.path)
     p_noise = 100 * whole["noise"]["chi_squared_p"]
-    blunt = (f" The program calls this no finding, because the size of the noise competes with everything else that is tried, but says that noise as declared gives as much in only {p_noise:.2g} % of cases."
+    blunt = (f" The program calls this no finding, because the size of the noise competes with everything else that is tried, but says that noise as declared gives residuals this large in only {p_noise:.2g} % of cases."
              if whole["verdict"] == "nothing_found" else "")
     heights = [(s, *(f"{x:+.1f}" for x in r), f"{np.ptp(r):.1f}") for s, r in by_setup.items()]
     return f"""## Rods of Tables 2.4 to 2.7

@@ -142,14 +142,14 @@ def main(words):
     a.out.mkdir(parents=True, exist_ok=True)
     known = {identity(r) for r in rows}
     # By seeds: broken off at any time, all kinds have had about as many.
-    todo = sorted((job for job in jobs(a) if identity_of(job) not in known), key=lambda job: job[3][3])
+    pending = sorted((job for job in jobs(a) if identity_of(job) not in known), key=lambda job: job[3][3])
     begun = time.monotonic()
     with multiprocessing.Pool(a.processes) as pool, log_file.open("a" if a.resume else "w") as log:
-        for i, row in enumerate(pool.imap_unordered(one, todo), 1):
+        for i, row in enumerate(pool.imap_unordered(one, pending), 1):
             rows.append(row)
             log.write(json.dumps(row) + "\n")
             if sys.stderr.isatty():
-                print(f"\r{i} of {len(todo)}", end="", file=sys.stderr, flush=True)
+                print(f"\r{i} of {len(pending)}", end="", file=sys.stderr, flush=True)
     run = dict(version=version, date=str(datetime.date.today()), machine=tables.machine(), seconds=time.monotonic() - begun, first_seed=a.first_seed,
                nulls=a.sets, effects=a.effect_sets, draws=a.draws, null_draws=a.null_draws, judgement=a.judgement, judgements=len(judgements()),
                processes=a.processes)

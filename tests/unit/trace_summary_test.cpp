@@ -35,7 +35,9 @@ TEST_CASE("readings that scatter more than declared do not agree", "[tracing][ve
     summarise(t);
     CAPTURE(p, t.plain[0]);
     const bool larger =
-        t.plain[0].find("2.7 times as declared, but noise as declared gives as much in only 2 %") != std::string::npos;
+        t.plain[0].find(
+            "2.7 times as large as declared, but noise as declared gives residuals this large in only 2 %") !=
+        std::string::npos;
     CHECK(larger == (p < t.alpha));
     CHECK((t.plain[0].find("agree with the model") == std::string::npos) == larger);
   }

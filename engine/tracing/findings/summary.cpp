@@ -189,8 +189,8 @@ std::string what_to_do(const std::vector<Finding>& found, const Rms& r, bool unc
                            : "",
                        shown_rms(r.holdout_noise, r),
                        unconfirmed
-                           ? fmt::format(" They neither confirm nor reject {}: measure another block before you "
-                                         "correct for anything.",
+                           ? fmt::format(" The held-out readings neither confirm nor reject {}: measure another "
+                                         "block before you correct for anything.",
                                          found.size() > 1 ? "them" : "it")
                            : "");
   }
@@ -239,9 +239,10 @@ std::string what_residuals_show(const Trace& t) {
                        "resemble those before them (correlation {:.1f}): something varies slowly that is not known.",
                        shown_rms(r.before, r), t.noise.correlation);
   if (t.noise.declared && t.noise.chi_squared_p <= t.alpha)
-    return fmt::format("No candidate explains the residuals ({}). They are no larger than noise gives that is {:.2g} "
-                       "times as declared, but noise as declared gives as much in only {:.2g} % of cases: {}",
-                       shown_rms(r.before, r), t.noise.scale, 100 * t.noise.chi_squared_p, lacks);
+    return fmt::format(
+        "No candidate explains the residuals ({}). They are consistent with noise {:.2g} times as "
+        "large as declared, but noise as declared gives residuals this large in only {:.2g} % of cases: {}",
+        shown_rms(r.before, r), t.noise.scale, 100 * t.noise.chi_squared_p, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
                      "gives ({}).",
                      shown_rms(r.before, r), noise);

@@ -1,5 +1,5 @@
 #pragma once
-/// One search: rounds that each take in what explains the readings best, until nothing more counts.
+/// One search in rounds: each adds the candidate that explains the readings best, until none is significant.
 #include "tracing/judgement/search.h"
 
 namespace gumshoe::tracing {
