@@ -103,13 +103,10 @@ template <class L> SineCosine<L> sine_cosine_lane(const L& x) {
           lanes_of<L>(bits_of(xsimd::select(swap, s, c)) ^ cosine_sign)};
 }
 
-/// Quantile of the standard normal distribution.
-///
-/// @param p probability, 0 < p < 1
-/// @param q 1 - p; given separately, so that a probability close to 1 keeps its digits (a tail reads the smaller one)
-/// @return  z with P(Z <= z) = p; relative error about 1e-16
+/// Quantile of the standard normal distribution where |p - 1/2| <= normal_centre; relative error about 1e-16.
 /// Source: Wichura 1988, algorithm AS 241, PPND16.
-template <class L> L normal_quantile_lane(const L& p, const L& q) {
+inline constexpr double normal_centre = 0.425;
+template <class L> L normal_quantile_centre(const L& centred) {
   constexpr double a[] = {3.3871328727963666080e0,  1.3314166789178437745e+2, 1.9715909503065514427e+3,
                           1.3731693765509461125e+4, 4.5921953931549871457e+4, 6.7265770927008700853e+4,
                           3.3430575583588128105e+4, 2.5090809287301226727e+3};
@@ -121,6 +118,12 @@ template <class L> L normal_quantile_lane(const L& p, const L& q) {
                           3.9307895800092710610e+4,
                           2.8729085735721942674e+4,
                           5.2264952788528545610e+3};
+  const L r = L(0.180625) - centred * centred;
+  return centred * polynomial(r, a) / polynomial(r, b);
+}
+
+/// The same outside, where its size is that of the smaller of p and 1 - p, and its sign that of `centred`.
+template <class L> L normal_quantile_tail(const L& smaller, const L& centred) {
   constexpr double c[] = {1.42343711074968357734e0,  4.63033784615654529590e0, 5.76949722146069140550e0,
                           3.64784832476320460504e0,  1.27045825245236838258e0, 2.41780725177450611770e-1,
                           2.27238449892691845833e-2, 7.74545014278341407640e-4};
@@ -143,20 +146,27 @@ template <class L> L normal_quantile_lane(const L& p, const L& q) {
                           1.84631831751005468180e-5,
                           1.42151175831644588870e-7,
                           2.04426310338993978564e-15};
-  const L centred = p - L(0.5);
-  const auto central = xsimd::abs(centred) <= L(0.425);
-  const L r0 = L(0.180625) - centred * centred;
-  const L middle = centred * polynomial(r0, a) / polynomial(r0, b);
-  if (xsimd::all(central)) return middle;
-  const L r = xsimd::sqrt(-log_lane(xsimd::min(p, q)));
-  const L r1 = r - L(1.6);
-  L tail = polynomial(r1, c) / polynomial(r1, d);
+  const L r = xsimd::sqrt(-log_lane(smaller)), r1 = r - L(1.6);
+  L size = polynomial(r1, c) / polynomial(r1, d);
   const auto far = r > L(5.0);
   if (xsimd::any(far)) {
     const L r2 = r - L(5.0);
-    tail = xsimd::select(far, polynomial(r2, e) / polynomial(r2, f), tail);
+    size = xsimd::select(far, polynomial(r2, e) / polynomial(r2, f), size);
   }
-  return xsimd::select(central, middle, xsimd::select(centred < L(0.0), -tail, tail));
+  return xsimd::select(centred < L(0.0), -size, size);
+}
+
+/// Quantile of the standard normal distribution.
+///
+/// @param p probability, 0 < p < 1
+/// @param q 1 - p; given separately, so that a probability close to 1 keeps its digits (a tail reads the smaller one)
+/// @return  z with P(Z <= z) = p; relative error about 1e-16
+template <class L> L normal_quantile_lane(const L& p, const L& q) {
+  const L centred = p - L(0.5);
+  const auto central = xsimd::abs(centred) <= L(normal_centre);
+  const L middle = normal_quantile_centre(centred);
+  if (xsimd::all(central)) return middle;
+  return xsimd::select(central, middle, normal_quantile_tail(xsimd::min(p, q), centred));
 }
 
 /// Distribution function of the standard normal distribution, P(Z <= x).

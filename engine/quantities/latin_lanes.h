@@ -35,7 +35,7 @@ inline void feistel_lanes(const random::Permutation& p, std::uint64_t* row, cons
     const Words key(p.round_key(round)), high_key(p.round_key(round) >> 32);
     for (std::size_t k = 0; k < abreast; ++k) {
       const Words product = product_of_low_words(cell[1 - moved][k] ^ key, first);
-      const Words hash = product_of_low_words((product >> 32) ^ product ^ high_key, second) >> 32;
+      const Words hash = high_words(product_of_low_words(high_words(product) ^ product ^ high_key, second));
       cell[moved][k] = within(cell[moved][k] + (product_of_low_words(hash, sides[moved]) >> 32), sides[moved]);
     }
   }

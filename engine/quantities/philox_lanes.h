@@ -22,15 +22,27 @@ template <class Register> inline Register product_of_low_words(const Register& a
   if constexpr (sizeof(Register) == 16) return Register(_mm_mul_epu32(a, b));
 }
 
-/// Ten rounds of Philox4x32 on the counters c, in place. Words are the lower halves of the lanes; the upper halves may hold
-/// anything after a round, except where they are shifted down.
+/// The upper 32 bits of each 64-bit lane in its lower half; the upper half holds them as well. A permutation, because a
+/// shift would wait for the ports that multiply.
+template <class Register> inline Register high_words(const Register& a) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(Register) == 64) return Register(_mm512_shuffle_epi32(a, _MM_PERM_DDBB));
+#endif
+#if defined(__AVX2__)
+  if constexpr (sizeof(Register) == 32) return Register(_mm256_shuffle_epi32(a, _MM_SHUFFLE(3, 3, 1, 1)));
+#endif
+  if constexpr (sizeof(Register) == 16) return Register(_mm_shuffle_epi32(a, _MM_SHUFFLE(3, 3, 1, 1)));
+}
+
+/// Ten rounds of Philox4x32 on the counters c, in place. Words are the lower halves of the lanes; the upper halves may
+/// hold anything.
 /// Source: Salmon et al. 2011, Parallel random numbers: as easy as 1, 2, 3.
 inline void philox_lanes(Words (&c)[4], std::uint32_t key0, std::uint32_t key1) {
   const Words m0(std::uint64_t{0xD2511F53}), m1(std::uint64_t{0xCD9E8D57});
   for (int round = 0; round < 10; ++round) {
     const Words p0 = product_of_low_words(c[0], m0), p1 = product_of_low_words(c[2], m1);
-    c[0] = (p1 >> 32) ^ c[1] ^ Words(std::uint64_t{key0});
-    c[2] = (p0 >> 32) ^ c[3] ^ Words(std::uint64_t{key1});
+    c[0] = high_words(p1) ^ c[1] ^ Words(std::uint64_t{key0});
+    c[2] = high_words(p0) ^ c[3] ^ Words(std::uint64_t{key1});
     c[1] = p1;
     c[3] = p0;
     key0 += 0x9E3779B9;

@@ -8,6 +8,7 @@
 #include "math/lane_functions.h"
 #include "math/lanes.h"
 #include "quantities/latin_lanes.h"
+#include "quantities/normal_lanes.h"
 #include "quantities/philox_lanes.h"
 
 namespace gumshoe::quantities {
@@ -85,11 +86,11 @@ void quantile(const QuantileSpec* spec, const double* u, double* out, std::size_
       return xsimd::select(x < half, c[0] + y, c[1] - y);
     });
   case Form::normal:
-    return each(u, out, n, [&](const Lanes& x) { return c[0] + c[1] * normal_quantile_lane(x, one - x); });
+    return each_normal_quantile(u, out, n, [&](const Lanes& z) { return c[0] + c[1] * z; });
   case Form::exponential:
     return each(u, out, n, [&](const Lanes& x) { return c[0] * -log_lane(one - x); });
   case Form::lognormal:
-    return each(u, out, n, [&](const Lanes& x) { return exp_lane(c[0] + c[1] * normal_quantile_lane(x, one - x)); });
+    return each_normal_quantile(u, out, n, [&](const Lanes& z) { return exp_lane(c[0] + c[1] * z); });
   case Form::truncated:
     return each(u, out, n, [&](const Lanes& x) {
       // From the nearer tail of the parent, which keeps its digits.
