@@ -5,10 +5,12 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include "quantities/quantile_kernels.h"
 
+#include <algorithm>
+
 #include "math/lane_functions.h"
 #include "math/lanes.h"
+#include "quantities/apart_lanes.h"
 #include "quantities/latin_lanes.h"
-#include "quantities/normal_lanes.h"
 #include "quantities/philox_lanes.h"
 
 namespace gumshoe::quantities {
@@ -33,6 +35,42 @@ Lanes curvilinear_root(const Lanes& q) {
   return xsimd::select(s < Lanes(1e-4), series, t);
 }
 
+void curvilinear(const Lanes (&c)[8], const double* u, double* out, std::size_t n) {
+  const Lanes one(1.0), half(0.5);
+  const auto rarer = [&](const Lanes& x) { return xsimd::min(x, one - x); };
+  const auto inner = [&](const Lanes& x) {
+    return (half - rarer(x)) * c[4];
+  }; // from the centre, where the density is flat
+  const auto placed = [&](const Lanes& x, const Lanes& y) { return xsimd::select(x < half, c[0] - y, c[0] + y); };
+  each_apart(
+      u, out, n, [&](const Lanes& x) { return inner(x) > c[1]; }, [&](const Lanes& x) { return placed(x, inner(x)); },
+      [&](const Lanes& x) { return placed(x, c[2] * curvilinear_root(xsimd::min(rarer(x) * c[3], one))); });
+}
+
+/// f of the standard normal quantiles.
+template <class F> void normal(const double* u, double* out, std::size_t n, const F& f) {
+  const Lanes one(1.0), half(0.5);
+  each_apart(
+      u, out, n, [&](const Lanes& p) { return xsimd::abs(p - half) > Lanes(normal_centre); },
+      [&](const Lanes& p) { return f(normal_quantile_centre(p - half)); },
+      [&](const Lanes& p) { return f(normal_quantile_tail(xsimd::min(p, one - p), p - half)); });
+}
+
+/// Turns rows into columns: every interleaving moves the leading bit of a lane's number to the row's (a perfect
+/// shuffle).
+void transpose(Lanes (&rows)[Lanes::size]) {
+  constexpr auto order = std::make_index_sequence<Lanes::size>();
+  constexpr std::size_t half = Lanes::size / 2;
+  for (std::size_t step = 1; step < Lanes::size; step *= 2) {
+    Lanes next[Lanes::size];
+    for (std::size_t i = 0; i < half; ++i) {
+      next[2 * i] = interleaved<0>(rows[i], rows[i + half], order);
+      next[2 * i + 1] = interleaved<half>(rows[i], rows[i + half], order);
+    }
+    std::ranges::copy(next, rows);
+  }
+}
+
 Lanes table_value(const TableView& table, const Lanes& p, const Lanes& upper, bool two_sided) {
   using Index = Bits<Lanes>;
   // p = 2^e (1 + m): piece = octave and the leading bits of m; x in [-1, 1] within the piece.
@@ -43,15 +81,22 @@ Lanes table_value(const TableView& table, const Lanes& p, const Lanes& upper, bo
   const double half = static_cast<double>(std::uint64_t{1} << (51 - pieces));
   const Lanes x = (to_double<Lanes>(inside) - Lanes(half)) * Lanes(1.0 / half);
   alignas(64) std::uint64_t index[Lanes::size];
-  alignas(64) double side[Lanes::size], c[table_degree + 1][Lanes::size];
+  alignas(64) double side[Lanes::size], last[Lanes::size];
   piece.store_aligned(index);
   upper.store_aligned(side);
+  const double* row[Lanes::size];
   for (std::size_t k = 0; k < Lanes::size; ++k) {
-    const double* row = (two_sided && side[k] > 0.5 ? table.upper : table.lower) + index[k] * (table_degree + 1);
-    for (int j = 0; j <= table_degree; ++j) c[j][k] = row[j];
+    row[k] = (two_sided && side[k] > 0.5 ? table.upper : table.lower) + index[k] * (table_degree + 1);
+    last[k] = row[k][table_degree];
   }
-  Lanes y = Lanes::load_aligned(c[table_degree]);
-  for (int j = table_degree; j-- > 0;) y = y * x + Lanes::load_aligned(c[j]);
+  Lanes y = Lanes::load_aligned(last);
+  for (std::size_t from = table_degree; from > 0;) { // as many coefficients at a time as lanes
+    from -= Lanes::size;
+    Lanes c[Lanes::size];
+    for (std::size_t k = 0; k < Lanes::size; ++k) c[k] = Lanes::load_unaligned(row[k] + from);
+    transpose(c);
+    for (std::size_t j = Lanes::size; j-- > 0;) y = y * x + c[j];
+  }
   return y;
 }
 
@@ -66,13 +111,7 @@ void quantile(const QuantileSpec* spec, const double* u, double* out, std::size_
   case Form::linear:
     return each(u, out, n, [&](const Lanes& x) { return c[0] + c[1] * x; });
   case Form::curvilinear:
-    return each(u, out, n, [&](const Lanes& x) {
-      const Lanes p = xsimd::min(x, one - x);
-      const Lanes inner = (half - p) * c[4]; // distance from the centre where the density is flat
-      const Lanes outer = c[2] * curvilinear_root(xsimd::min(p * c[3], one));
-      const Lanes y = xsimd::select(inner <= c[1], inner, outer);
-      return xsimd::select(x < half, c[0] - y, c[0] + y);
-    });
+    return curvilinear(c, u, out, n);
   case Form::trapezoid:
     return each(u, out, n, [&](const Lanes& x) {
       const Lanes p = xsimd::min(x, one - x);
@@ -86,11 +125,11 @@ void quantile(const QuantileSpec* spec, const double* u, double* out, std::size_
       return xsimd::select(x < half, c[0] + y, c[1] - y);
     });
   case Form::normal:
-    return each_normal_quantile(u, out, n, [&](const Lanes& z) { return c[0] + c[1] * z; });
+    return normal(u, out, n, [&](const Lanes& z) { return c[0] + c[1] * z; });
   case Form::exponential:
     return each(u, out, n, [&](const Lanes& x) { return c[0] * -log_lane(one - x); });
   case Form::lognormal:
-    return each_normal_quantile(u, out, n, [&](const Lanes& z) { return exp_lane(c[0] + c[1] * z); });
+    return normal(u, out, n, [&](const Lanes& z) { return exp_lane(c[0] + c[1] * z); });
   case Form::truncated:
     return each(u, out, n, [&](const Lanes& x) {
       // From the nearer tail of the parent, which keeps its digits.
