@@ -205,7 +205,9 @@ ExitCode estimate(const EstimateOptions& o) {
   else
     print_text(experiment, result, written);
   if (result.solver.converged) return ExitCode::done;
-  std::cerr << "error: the fit did not converge (" << result.solver.reason << "). Use other start values.\n";
+  std::cerr << "error: the fit did not converge (" << result.solver.reason
+            << "). Use other start values; where readings jump with what is estimated, "
+               "as a mill's do from tooth to tooth, gumshoe trace seeks it.\n";
   return ExitCode::too_many_failures;
 }
 

@@ -14,6 +14,7 @@
 #include "tracing/criteria.h"
 #include "tracing/findings/comparison.h"
 #include "tracing/findings/findings.h"
+#include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starting_values.h"
 #include "tracing/judgement/holdout.h"
 #include "tracing/judgement/search.h"
@@ -207,6 +208,8 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
   training.flip();
   Fitter fitter(experiment, simulator, observations, rows_where(observations, training), settings.threads);
   fitter.start_from(scenario);
+  if (const auto nearer = with_jumping_found(scenario, experiment, simulator, observations, fitter, settings.threads))
+    return traced(*nearer, settings, converged);
   const double further_alpha = criteria.further_share * scenario.trace.alpha;
   const TraceContext c{experiment,
                        simulator,

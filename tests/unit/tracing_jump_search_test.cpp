@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "tracing/criteria.h"
+#include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starts.h"
 #include "unit/tracing_case.h"
 
@@ -19,7 +21,8 @@ constexpr int readings = 24;
 constexpr double step = 1.5e-7; // m
 
 /// Four inserts of different heights; a tooth feeds 0.2 um to 2.2 um.
-std::string mill(double u) {
+/// @param wear_3  as it is declared
+std::string mill(double u, const std::string& wear_3 = "{ value = \"0.1 um\", u = \"0.02 um\" }") {
   std::string rows;
   for (int i = 0; i < readings; ++i)
     rows +=
@@ -34,9 +37,8 @@ std::string mill(double u) {
          "[conditions]\nstart_height = \"2 mm\"\n"
          "[quantities]\ntool_length = { estimated = true, value = \"176.6 mm\" }\nlaser_z = \"-1172.015 mm\"\n"
          "inserts = 4\ninsert_radius = \"5 mm\"\ninsert_thickness = \"3.2 mm\"\n"
-         "wear_2 = \"0.4 um\"\nwear_3 = { value = \"0.1 um\", u = \"0.02 um\" }\nwear_4 = \"0.3 um\"\n"
-         "[indications.spindle_z]\nrows = [\n" +
-         rows +
+         "wear_2 = \"0.4 um\"\nwear_3 = " +
+         wear_3 + "\nwear_4 = \"0.3 um\"\n" + "[indications.spindle_z]\nrows = [\n" + rows +
          fmt::format("]\ncomponents = [ {{ distribution = \"normal\", u = \"{} m\", per = \"reading\" }} ]\n", u);
 }
 
@@ -117,6 +119,30 @@ TEST_CASE("a height between those tried explains readings that jump", "[tracing]
     const JointFit base = c.fitter->fit({}, 1);
     const double squares = base.residual.squaredNorm() / (u * u), freedom = readings - 1;
     CHECK(start.ratio > 0.5 * freedom * std::log(squares / freedom));
+  }
+}
+
+TEST_CASE("an estimated size with which readings jump is found from afar, and no other is said to jump", "[tracing]") {
+  constexpr double u = 1e-7;
+  Case c(mill(u, "{ estimated = true, value = \"0.1 um\" }"));
+  for (const double off : {-0.63e-6, -0.5e-6, -0.8e-6}) {
+    Points at = c.simulator->estimates();
+    for (auto& reading : at) reading[c.quantity("wear_3")] += off;
+    c.measure(at, noise(u, 2));
+    const auto found = with_jumping_found(c.scenario, *c.experiment, *c.simulator, c.observations, *c.fitter, 1);
+    REQUIRE(found);
+    CAPTURE(off);
+    REQUIRE(found->trace.jumping.size() == 1); // not tool_length
+    CHECK(found->trace.jumping[0].first == "wear_3");
+    CHECK(std::fabs(found->trace.jumping[0].second + off) < 2 * step);
+    Case from(*found);
+    CHECK(std::fabs(from.scenario.quantities[from.quantity("wear_3")].entries[0].value - 0.1e-6 - off) < step);
+    const JointFit fit = from.fitter->fit({}, 1);
+    CHECK(fit.converged);
+    CHECK(fit.residual.squaredNorm() / (u * u) < boost::math::quantile(boost::math::chi_squared(readings - 2), 0.999));
+    // Named, they are not sought again.
+    CHECK_FALSE(
+        with_jumping_found(from.scenario, *from.experiment, *from.simulator, from.observations, *from.fitter, 1));
   }
 }
 

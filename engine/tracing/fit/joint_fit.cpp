@@ -147,6 +147,13 @@ Vector without_moving(const std::vector<Index>& held, const JointFit& fit, const
 
 } // namespace
 
+std::vector<Index> Fitter::jumping_unknowns() const {
+  std::vector<Index> out;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u].jump > 0) out.push_back(index(u));
+  return out;
+}
+
 JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
   JointFit fit;
   fit.at = start ? without_terms(*start) : simulator_.estimates();
@@ -171,7 +178,9 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     fit.noise *= scan.run(scan.whitened(scan.plain()).take(fit.residual)).scale[0];
     linearise(fit);
   }
-  if (const auto held = start_columns(fit); !held.empty()) {
+  auto held = start_columns(fit);
+  if (!start) std::ranges::copy(jumping_unknowns(), std::back_inserter(held));
+  if (!held.empty()) {
     apply(fit, without_moving(held, fit, rows_), 1);
     if (!linearise(fit)) fit.valid = fit.converged = false;
     if (!fit.valid) return fit;
@@ -225,14 +234,12 @@ void Fitter::converge(JointFit& fit, double noise) const {
     const auto p = index(scan.used().size());
     Vector change = Vector::Zero(fit.design.fixed.cols());
     fit.covariance = Matrix::Constant(change.size(), change.size(), nan);
-    double largest = 0, largest_smooth = 0; // the second without sizes whose tangent leads nowhere
+    double largest = 0;
     for (Index i = 0; i < p; ++i) {
       const Index column = scan.used()[index(i)];
       change[column] = x[i];
       const double u = std::sqrt(std::max(0.0, fit.variance * covariance(i, i)));
       if (u > 0) largest = std::max(largest, std::fabs(x[i]) / u);
-      const bool jumps = column < index(unknowns_.size()) && unknowns_[index(column)].jump > 0;
-      if (u > 0 && !jumps) largest_smooth = std::max(largest_smooth, std::fabs(x[i]) / u);
       for (Index j = 0; j < p; ++j) fit.covariance(column, scan.used()[index(j)]) = fit.variance * covariance(i, j);
     }
     Vector drawn = Vector::Zero(fit.drawn.size());
@@ -241,9 +248,7 @@ void Fitter::converge(JointFit& fit, double noise) const {
       if (!draws_[v].fitted) continue;
       const Index i = p + index(j);
       drawn[index(v)] = x[i] - fit.drawn[index(v)];
-      const double by = std::fabs(drawn[index(v)]) / std::sqrt(fit.variance * covariance(i, i));
-      largest = std::max(largest, by);
-      largest_smooth = std::max(largest_smooth, by);
+      largest = std::max(largest, std::fabs(drawn[index(v)]) / std::sqrt(fit.variance * covariance(i, i)));
     }
     fit.converged = largest < criteria.converged;
     // The noise's scale once the fit stands, as far as the readings know it.
@@ -275,13 +280,25 @@ void Fitter::converge(JointFit& fit, double noise) const {
     }
     const double before = objective(fit, fit.covariance_model, scan);
     bool better = false;
-    for (double share = 1; share > 0.05 && !better; share /= 2) {
-      JointFit next = fit;
-      apply(next, change, share);
-      move_draws(next, share * drawn);
-      if (!linearise(next)) continue;
-      better = objective(next, next.covariance_model, scan) <= before * (1 + 1e-9);
-      if (better) fit = std::move(next);
+    const auto improve = [&](const Vector& by, const Vector& draws) {
+      for (double share = 1; share > 0.05 && !better; share /= 2) {
+        JointFit next = fit;
+        apply(next, by, share);
+        move_draws(next, share * draws);
+        if (!linearise(next)) continue;
+        better = objective(next, next.covariance_model, scan) <= before * (1 + 1e-9);
+        if (better) fit = std::move(next);
+      }
+    };
+    improve(change, drawn);
+    const std::vector<Index> held = jumping_unknowns();
+    if (!better && !held.empty()) { // their tangents lead nowhere, nor does a step of others that goes with them
+      change = without_moving(held, fit, rows_);
+      largest = 0;
+      for (Index j = 0; j < change.size(); ++j)
+        if (const double u = std::sqrt(fit.covariance(j, j)); u > 0)
+          largest = std::max(largest, std::fabs(change[j]) / u);
+      if (largest > criteria.stalled) improve(change, Vector::Zero(drawn.size()));
     }
     if (better) {
       draws_move = true; // from elsewhere it may lead somewhere: the fit ends where neither step does
@@ -290,7 +307,7 @@ void Fitter::converge(JointFit& fit, double noise) const {
       --fit.iterations; // the same point is tried without
     } else {            // at the floor of what steps can do
       if (rescaled()) continue;
-      fit.converged = largest_smooth < criteria.stalled;
+      fit.converged = largest < criteria.stalled;
       break;
     }
   }

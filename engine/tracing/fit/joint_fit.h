@@ -151,6 +151,7 @@ private:
   Size size_of(const JointFit& fit, std::size_t unknown) const;
   struct Profile;
   class JumpingSizes;
+  std::vector<Index> jumping_unknowns() const; ///< columns
   bool any_jumps(const JointFit& fit) const;
   /// True if a profile is needed: readings jump with the size, or do not follow its tangent.
   enum class Worth { jumps, tangent_wrong };

@@ -17,7 +17,7 @@ double found_size(const Term& term) {
 }
 
 bool Fitter::any_jumps(const JointFit& fit) const {
-  return std::ranges::any_of(unknowns_, [](const FreeUnknown& u) { return u.jump > 0; }) ||
+  return !jumping_unknowns().empty() ||
          std::ranges::any_of(fit.terms, [](const Term& t) { return !t.candidate.start.empty(); });
 }
 

@@ -171,7 +171,9 @@ private:
       const FreeUnknown& free = c_.fitter.unknowns()[u];
       const auto column = index(u);
       if (!std::isfinite(fit_.covariance(column, column))) continue;
-      const auto& entry = out_.extended.quantities[free.quantity].entries[free.entry];
+      const auto& quantity = out_.extended.quantities[free.quantity];
+      const auto& entry = quantity.entries[free.entry];
+      if (free.jump > 0) out_.jumping.push_back({quantity.name, quantity.unit, quantity.si_unit, free.jump});
       lines_.push_back({unknown(free.quantity, free.entry),
                         value_at(free.quantity, entry.labels) + absorbed_[column],
                         {{column, 1}},
