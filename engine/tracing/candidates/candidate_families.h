@@ -15,6 +15,9 @@ public:
   CandidateMaker(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
                  const Observations& observations, double step, const std::function<bool(const Candidate&)>& skip,
                  const BestStart& choose);
+  /// For jumping_candidates() alone, which needs no signatures.
+  CandidateMaker(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
+                 const Observations& observations, double step, const BestStart& choose);
 
   /// Adds a candidate to its family unless it is skipped, has no effect, or equals one with its name.
   void add(Candidate a, std::vector<Candidate>& family) const;
@@ -35,7 +38,7 @@ public:
 private:
   /// On what its signature depends, by its course; of an effect or a quantity no more than what it can change with.
   std::vector<std::string> dependence_of(const Candidate& a) const;
-  const std::function<bool(const Candidate&)>& skip_;
+  std::function<bool(const Candidate&)> skip_;
 };
 
 /// Effects of the catalogue, at every value of the grids of their shape quantities.

@@ -71,6 +71,10 @@ CandidateMaker::CandidateMaker(const propagation::Experiment& e, const Simulator
     : experiment(e), simulator(s), at(p), observations(o), moved(signatures(e, s, p, change)), step(change),
       choose(best), skip_(skip) {}
 
+CandidateMaker::CandidateMaker(const propagation::Experiment& e, const Simulator& s, const Points& p,
+                               const Observations& o, double change, const BestStart& best)
+    : experiment(e), simulator(s), at(p), observations(o), step(change), choose(best) {}
+
 void CandidateMaker::add(Candidate a, std::vector<Candidate>& family) const {
   // What a whole SI unit would move by less than a ten-millionth of the noise is rounding, no signature.
   const double least = criteria.least_signature * step * std::sqrt(static_cast<double>(a.columns.rows()));

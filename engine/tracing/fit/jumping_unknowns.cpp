@@ -50,9 +50,13 @@ Scenario without_estimating(Scenario s, const Places& quantities) {
 /// Changes of these quantities from where they are; two that follow each other as a pair of an effect are one candidate.
 std::vector<Candidate> changes_of(const CandidateMaker& make, const Places& quantities) {
   std::vector<Candidate> out;
+  Vector f;
+  Matrix tangents;
+  if (!make.simulator.derivatives(make.at, quantities, f, tangents)) return out;
+  tangents = in_sequence(make.observations, tangents);
   const auto role = [&](std::size_t q) { return card_of(make.experiment, q)->role; };
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const std::size_t q = quantities[i];
+    const std::size_t q = quantities[i], first = i;
     Places own{q};
     if (i + 1 < quantities.size() && quantities[i + 1] == q + 1 && role(q) == Role::pair && role(q + 1) == Role::pair &&
         quantities::effect_of(make.experiment.scenario().quantities[q].name) ==
@@ -60,21 +64,18 @@ std::vector<Candidate> changes_of(const CandidateMaker& make, const Places& quan
       own.push_back(quantities[++i]);
     Candidate one;
     one.name = make.experiment.scenario().quantities[q].name;
-    one.columns = Matrix(index(make.simulator.rows()), index(own.size()));
-    for (std::size_t j = 0; j < own.size(); ++j) {
-      const QuantityCard& card = *card_of(make.experiment, own[j]);
-      Amplitude a = make.amplitude(own[j], card);
-      a.low = card.limits.low - make.at[0][own[j]];
-      a.high = card.limits.high - make.at[0][own[j]];
+    one.columns = tangents.middleCols(index(first), index(own.size()));
+    for (const std::size_t each : own) {
+      const QuantityCard& card = *card_of(make.experiment, each);
+      Amplitude a = make.amplitude(each, card);
+      a.low = card.limits.low - make.at[0][each];
+      a.high = card.limits.high - make.at[0][each];
       one.amplitudes.push_back(std::move(a));
-      one.columns.col(index(j)) = in_sequence(make.observations, make.moved.tangents.col(index(own[j])));
     }
     if (one.columns.norm() > 0) out.push_back(std::move(one));
   }
   return out;
 }
-
-const auto none_known = [](const Candidate&) { return false; };
 
 /// Those of the quantities with which readings jump. @param left  root mean square of what is left of the readings, SI
 Places jumping_among(const Experiment& e, const Simulator& simulator, const Observations& o, const Places& quantities,
@@ -83,8 +84,7 @@ Places jumping_among(const Experiment& e, const Simulator& simulator, const Obse
     return std::optional(Start{sizes.col(0)});
   };
   const Points at = simulator.estimates();
-  const std::function<bool(const Candidate&)> skip = none_known;
-  const CandidateMaker make(e, simulator, at, o, criteria.secant_step * left, skip, first);
+  const CandidateMaker make(e, simulator, at, o, criteria.secant_step * left, first);
   Places out;
   for (const Candidate& a : jumping_candidates(make, changes_of(make, quantities)))
     for (const Amplitude& one : a.amplitudes) out.push_back(one.quantity);
@@ -112,8 +112,7 @@ std::vector<Term> found(const Experiment& e, const Simulator& simulator, const O
     const BestStart best = [&](const Candidate& a, const Matrix& sizes, double step) {
       return fitter.best_start(fit, a, sizes, step);
     };
-    const std::function<bool(const Candidate&)> skip = none_known;
-    const CandidateMaker make(e, simulator, fit.at, o, criteria.secant_step * left, skip, best);
+    const CandidateMaker make(e, simulator, fit.at, o, criteria.secant_step * left, best);
     auto candidates = jumping_candidates(make, changes_of(make, quantities));
     if (candidates.empty()) break;
     Candidate& next = *std::ranges::max_element(candidates, {}, &Candidate::exact_ratio);
