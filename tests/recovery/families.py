@@ -116,6 +116,8 @@ rod_gauging         z_reversal[rod_3]@8                                       wh
 rod_gauging         trigger_latency@12+z_reversal@8                           white
 rod_gauging         cubic@12                                                  white
 tool_length         -                                                         white
+tool_length         -                                                         white      quiet 24
+tool_length         -                                                         white      quiet
 tool_length         trigger_latency@8                                         white
 tool_length         revolution_confirm@8                                      white
 tool_length         spindle_axial_shift@8                                     white

@@ -216,8 +216,7 @@ private:
     Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
                                  overstated(before, after, judged_.design));
     // However ill the training data know what was found: its errors are no longer those that its own noise allows.
-    if (says == Holdout::unsure && after.rms[0] > criteria.veto_growth * before.rms[0] &&
-        after.rms[0] > out_.rms.holdout_noise_high)
+    if (says == Holdout::unsure && after.rms[0] >= before.rms[0] && after.rms[0] > out_.rms.holdout_noise_high)
       says = Holdout::vetoes;
     out_.unconfirmed = says == Holdout::unsure;
     if (out_.unconfirmed)
