@@ -181,11 +181,6 @@ struct Criteria {
   int jump_samples = 12;
   std::size_t tries_that_tell = 5;
   double finest_jump_reach = 1e-3;
-  /// Values tried of a declared draw with which readings jump, up to so many standard uncertainties either side, beyond
-  /// which the declared value is in doubt; and so many draws moved one after the other.
-  Index draw_steps = 17;
-  double draw_reach = 2;
-  int most_draws_moved = 8;
   double tangent_serves = 0.1; ///< largest difference of the tangent from the line through the steps, as its share
 
   // ---- Judgement ----

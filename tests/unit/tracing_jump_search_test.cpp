@@ -59,15 +59,6 @@ Start best(Case& c) {
   return *out;
 }
 
-/// What is read without noise if wear_3 is off.
-gumshoe::tracing::Matrix known_readings(const Case& c, double off) {
-  Points at = c.simulator->estimates();
-  for (auto& reading : at) reading[c.quantity("wear_3")] += off;
-  Vector f;
-  REQUIRE(c.simulator->simulate(at, f));
-  return f;
-}
-
 /// p-value of one signature that explains as much (2 ln L), of a constant and noise of unknown size.
 double by_chance(double ratio) {
   if (ratio <= 0) return 1;
@@ -153,36 +144,6 @@ TEST_CASE("an estimated size with which readings jump is found from afar, and no
     CHECK_FALSE(
         with_jumping_found(from.scenario, *from.experiment, *from.simulator, from.observations, *from.fitter, 1));
   }
-}
-
-TEST_CASE("a declared quantity that is off by little makes readings jump, and is found where it is likely",
-          "[tracing]") {
-  constexpr double u = 2e-8; // m; a tooth feeds 0.2 um to 2.2 um
-  Case c(mill(u, "{ value = \"0.1 um\", u = \"0.05 um\" }"));
-  const std::size_t wear = c.quantity("wear_3");
-  const double limit = boost::math::quantile(boost::math::chi_squared(readings - 1), 0.999);
-  int jumped = 0;
-  for (const double off : {-0.12e-6, -0.08e-6, -0.05e-6, 0.0}) {
-    Points at = c.simulator->estimates();
-    for (auto& reading : at) reading[wear] += off;
-    c.measure(at, noise(u, 3));
-    const JointFit fit = c.fitter->fit({}, 1);
-    const double moved = fit.at[0][wear] - c.simulator->estimates()[0][wear];
-    CAPTURE(off, moved);
-    CHECK(fit.residual.squaredNorm() / (u * u) < limit);
-    // Were it not moved, but for the length: what jumps are left then?
-    const gumshoe::tracing::Matrix still = known_readings(c, 0), own = known_readings(c, off);
-    const Vector by = (own - still).col(0).array() - (own - still).mean();
-    if (by.cwiseAbs().maxCoeff() < 5 * u) {
-      CHECK(std::fabs(moved) < 0.1 * 0.05e-6); // nothing is gained by it
-    } else {
-      ++jumped;
-      CHECK(moved <
-            0); // no further than its own readings ask for: the draw that costs least among those with these jumps
-      CHECK(moved > off - 0.25 * 0.05e-6);
-    }
-  }
-  CHECK(jumped > 0);
 }
 
 TEST_CASE("readings that were not fitted may jump where sizes as likely as the best say so", "[tracing]") {

@@ -31,7 +31,6 @@ void Fitter::start_from(const scenario::Scenario& scenario) {
     const auto& components = declared.entries[variate.entry].components;
     if (!components[variate.component].per.empty() || tied(plan, v)) continue; // no trace says what it found of these
     if (std::ranges::find(priors, declared.name, &InputQuantity::name) == priors.end()) {
-      draws_[v].jumps = draws_[v].jumps || draws_[v].fitted;
       draws_[v].fitted = false; // readings jumped with it
       continue;
     }

@@ -120,19 +120,12 @@ void Fitter::find_fitted() {
     for (const auto& [r, q] : d.moves) largest[q] = std::max(largest[q], d.u);
   }
   const std::set<std::size_t> jumping = not_smooth(largest);
-  for (auto& [q, u] : largest) u *= criteria.draw_reach;
-  const std::set<std::size_t> beyond = not_smooth(largest);
-  for (Draw& d : draws_) {
-    const auto moves = [&](const std::set<std::size_t>& some) {
-      return std::ranges::any_of(d.moves, [&](const auto& m) { return some.contains(m.second); });
-    };
-    d.jumps = d.fitted && (moves(jumping) || moves(beyond));
-    d.fitted = d.fitted && !moves(jumping);
-  }
+  for (Draw& d : draws_)
+    d.fitted = d.fitted && std::ranges::none_of(d.moves, [&](const auto& m) { return jumping.contains(m.second); });
   // Tied draws move together or not at all.
   for (const auto& group : experiment_.plan().copulas) {
     const bool all = std::ranges::all_of(group.variates, [&](std::size_t v) { return draws_[v].fitted; });
-    for (const std::size_t v : group.variates) draws_[v].fitted = all, draws_[v].jumps = false;
+    for (const std::size_t v : group.variates) draws_[v].fitted = all;
   }
 }
 

@@ -188,13 +188,8 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   converge(fit, noise);
   for (int lesser = 0; lesser < criteria.most_optima && fit.valid && explore(fit); ++lesser) converge(fit, noise);
   if (!fit.valid) return fit;
-  settle_draws(fit, noise);
-  if (cross_jumps(fit, noise, jump_reach(terms, start))) settle_draws(fit, noise);
+  cross_jumps(fit, noise, jump_reach(terms, start));
   return fit;
-}
-
-void Fitter::settle_draws(JointFit& fit, double noise) const {
-  for (int moved = 0; moved < criteria.most_draws_moved && fit.valid && cross_draws(fit); ++moved) converge(fit, noise);
 }
 
 JointFit Fitter::with_noise(const JointFit& found, const std::vector<MoreNoise>& more) const {

@@ -139,7 +139,6 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> moves;
     bool local = false;  ///< acts on one reading only
     bool fitted = false; ///< moves the point of linearisation, as priors of the model's quantities do
-    bool jumps = false;  ///< readings jump with it, and it is tied to no other: its values are tried
   };
   /// A fitted size: of a term, or found by an earlier trace.
   struct Size {
@@ -220,13 +219,6 @@ private:
   bool explore(JointFit& fit) const;
   /// The same for all terms that start where readings jump, together. @param reach  share of their sizes tried, 0: none
   bool cross_jumps(JointFit& fit, double noise, double reach) const;
-  /// Moves the one declared draw with which readings jump to where this gains most, as far as it gains anything beyond
-  /// what the draw costs. Returns false if none does.
-  bool cross_draws(JointFit& fit) const;
-  /// Changes of all readings (rows in the order of measurement) by steps of a draw, in standard uncertainties
-  /// (columns).
-  Matrix moved_by(const Draw& draw, const Points& at, const Vector& steps, std::vector<bool>& valid) const;
-  void settle_draws(JointFit& fit, double noise) const; ///< cross_draws() until there is nothing to gain
   void widen_across_jumps(JointFit& fit) const;
   /// @param unit  scale of the uncertainty of the size
   std::optional<Profile> profile(const JointFit& fit, const Size& size, double unit, Worth worth) const;

@@ -85,20 +85,8 @@ void Fitter::refine(JointFit& fit) const {
   constexpr double worth_another = 0.1; // 2 ln L: of sixty readings, a thousandth of the error
   for (int lesser = 0; lesser < criteria.most_optima; ++lesser) {
     const double before = fit.criterion;
-    if (!cross_jumps(fit, 0, criteria.jump_reach_again) || !(before - fit.criterion > worth_another)) break;
+    if (!cross_jumps(fit, 0, criteria.jump_reach_again) || !(before - fit.criterion > worth_another)) return;
   }
-  // Draws that were moved before the last term came may not be needed beside it; a trace of the traced scenario seeks
-  // them from null.
-  JointFit again = fit;
-  Vector back = Vector::Zero(fit.drawn.size());
-  for (std::size_t v = 0; v < draws_.size(); ++v)
-    if (draws_[v].jumps) back[index(v)] = -fit.drawn[index(v)];
-  if (back.isZero(0)) return;
-  move_draws(again, back);
-  if (!linearise(again)) return;
-  converge(again, 0);
-  settle_draws(again, 0);
-  if (again.valid && again.criterion < fit.criterion + worth_another) fit = std::move(again);
 }
 
 } // namespace gumshoe::tracing
