@@ -103,9 +103,10 @@ template <class L> SineCosine<L> sine_cosine_lane(const L& x) {
           lanes_of<L>(bits_of(xsimd::select(swap, s, c)) ^ cosine_sign)};
 }
 
-/// Quantile of the standard normal distribution where |p - 1/2| <= normal_centre; relative error about 1e-16.
-/// Source: Wichura 1988, algorithm AS 241, PPND16.
+/// |p - 1/2| up to which normal_quantile_centre() holds.
 inline constexpr double normal_centre = 0.425;
+/// Quantile of the standard normal distribution in its centre, by centred = p - 1/2; relative error about 1e-16.
+/// Source: Wichura 1988, algorithm AS 241, PPND16.
 template <class L> L normal_quantile_centre(const L& centred) {
   constexpr double a[] = {3.3871328727963666080e0,  1.3314166789178437745e+2, 1.9715909503065514427e+3,
                           1.3731693765509461125e+4, 4.5921953931549871457e+4, 6.7265770927008700853e+4,
@@ -122,7 +123,9 @@ template <class L> L normal_quantile_centre(const L& centred) {
   return centred * polynomial(r, a) / polynomial(r, b);
 }
 
-/// The same outside, where its size is that of the smaller of p and 1 - p, and its sign that of `centred`.
+/// The same beyond the centre.
+/// @param smaller  of p and 1 - p
+/// @param centred  p - 1/2, of which the sign counts
 template <class L> L normal_quantile_tail(const L& smaller, const L& centred) {
   constexpr double c[] = {1.42343711074968357734e0,  4.63033784615654529590e0, 5.76949722146069140550e0,
                           3.64784832476320460504e0,  1.27045825245236838258e0, 2.41780725177450611770e-1,
@@ -161,6 +164,7 @@ template <class L> L normal_quantile_tail(const L& smaller, const L& centred) {
 /// @param p probability, 0 < p < 1
 /// @param q 1 - p; given separately, so that a probability close to 1 keeps its digits (a tail reads the smaller one)
 /// @return  z with P(Z <= z) = p; relative error about 1e-16
+/// Source: as its two parts.
 template <class L> L normal_quantile_lane(const L& p, const L& q) {
   const L centred = p - L(0.5);
   const auto central = xsimd::abs(centred) <= L(normal_centre);

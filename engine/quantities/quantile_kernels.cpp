@@ -38,9 +38,8 @@ Lanes curvilinear_root(const Lanes& q) {
 void curvilinear(const Lanes (&c)[8], const double* u, double* out, std::size_t n) {
   const Lanes one(1.0), half(0.5);
   const auto rarer = [&](const Lanes& x) { return xsimd::min(x, one - x); };
-  const auto inner = [&](const Lanes& x) {
-    return (half - rarer(x)) * c[4];
-  }; // from the centre, where the density is flat
+  // Distance from the centre where the density is flat.
+  const auto inner = [&](const Lanes& x) { return (half - rarer(x)) * c[4]; };
   const auto placed = [&](const Lanes& x, const Lanes& y) { return xsimd::select(x < half, c[0] - y, c[0] + y); };
   each_apart(
       u, out, n, [&](const Lanes& x) { return inner(x) > c[1]; }, [&](const Lanes& x) { return placed(x, inner(x)); },
@@ -89,8 +88,9 @@ Lanes table_value(const TableView& table, const Lanes& p, const Lanes& upper, bo
     row[k] = (two_sided && side[k] > 0.5 ? table.upper : table.lower) + index[k] * (table_degree + 1);
     last[k] = row[k][table_degree];
   }
+  static_assert(table_degree % Lanes::size == 0);
   Lanes y = Lanes::load_aligned(last);
-  for (std::size_t from = table_degree; from > 0;) { // as many coefficients at a time as lanes
+  for (std::size_t from = table_degree; from > 0;) { // as many coefficients at a time as there are lanes
     from -= Lanes::size;
     Lanes c[Lanes::size];
     for (std::size_t k = 0; k < Lanes::size; ++k) c[k] = Lanes::load_unaligned(row[k] + from);
