@@ -134,11 +134,22 @@ TEST_CASE("effects that explain as much as scatter are tried in its place", "[tr
 }
 
 TEST_CASE("hold-out blocks veto what does not predict them better", "[tracing]") {
-  CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, 3) == Holdout::confirms);
-  CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, 2) == Holdout::vetoes);    // no better in units of all that is declared
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, 2) == Holdout::vetoes); // the root mean square grows by more than 5 %
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, 3) == Holdout::confirms);
-  CHECK(judge_holdout({30, 2e-6}, {31, 2.2e-6}, 1) == Holdout::unsure); // as chance gives were the finding true
+  constexpr double noise = 3e-6; // m: 97.5 % of what noise alone gives
+  CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, 3, noise) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, 2, noise) ==
+        Holdout::vetoes); // no better in units of all that is declared
+  // The root mean square grows by more than 5 %.
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, 2, noise) == Holdout::vetoes);
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, 3, noise) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {31, 2.2e-6}, 1, noise) == Holdout::unsure); // as chance gives were the finding true
+}
+
+TEST_CASE("hold-out blocks veto what leaves them with more than noise and no less than before", "[tracing]") {
+  constexpr double noise = 1e-6;
+  CHECK(judge_holdout({30, 2e-6}, {31, 2e-6}, 1, noise) == Holdout::vetoes);
+  CHECK(judge_holdout({30, 2e-6}, {31, 1.9e-6}, 1, noise) == Holdout::unsure);    // something else may be left
+  CHECK(judge_holdout({30, 0.8e-6}, {31, 0.9e-6}, 1, noise) == Holdout::unsure);  // noise gives as much
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.05e-6}, 1, noise) == Holdout::confirms); // in units of all that is declared
 }
 
 TEST_CASE("after a veto scatter remains, effects do not", "[tracing]") {

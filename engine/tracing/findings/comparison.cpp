@@ -213,11 +213,8 @@ private:
                       changes ? "; their error changes only because everything else is fitted together with it" : ""));
       return false;
     }
-    Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
-                                 overstated(before, after, judged_.design));
-    // However ill the training data know what was found: its errors are no longer those that its own noise allows.
-    if (says == Holdout::unsure && after.rms[0] >= before.rms[0] && after.rms[0] > out_.rms.holdout_noise_high)
-      says = Holdout::vetoes;
+    const Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
+                                       overstated(before, after, judged_.design), out_.rms.holdout_noise_high);
     out_.unconfirmed = says == Holdout::unsure;
     if (out_.unconfirmed)
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "

@@ -86,9 +86,10 @@ bool larger_noise_found(const Assessment& a, double alpha) {
          std::ranges::none_of(a.p_component, [&](double p) { return p <= alpha; });
 }
 
-Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated) {
+Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated, double noise_high) {
   if (after.whitened < before.whitened && after.rms <= criteria.veto_growth * before.rms) return Holdout::confirms;
-  return overstated > criteria.overstated ? Holdout::vetoes : Holdout::unsure;
+  const bool beyond_noise = after.rms >= before.rms && after.rms > noise_high;
+  return overstated > criteria.overstated || beyond_noise ? Holdout::vetoes : Holdout::unsure;
 }
 
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone) {
