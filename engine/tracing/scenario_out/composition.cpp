@@ -16,17 +16,12 @@
 #include "tracing/scenario_out/composition.h"
 #include "tracing/scenario_out/corrections.h"
 #include "tracing/scenario_out/lines.h"
+#include "tracing/scenario_out/sources.h"
 
 namespace gumshoe::tracing {
 namespace {
 
 using quantities::Labels;
-
-/// To the place that `u` asks for.
-std::string number(double si, double u, const std::string& unit, const std::string& si_unit, units::Kind kind) {
-  const double shown = units::from_si(u, unit, si_unit, units::Kind::difference);
-  return analysis::fixed(units::from_si(si, unit, si_unit, kind), shown > 0 ? analysis::decimals_for(shown) : 6);
-}
 
 class Composer {
 public:
@@ -200,7 +195,7 @@ private:
     for (std::size_t j = 0; j < one.candidate.amplitudes.size(); ++j) {
       const Amplitude& a = one.candidate.amplitudes[j];
       const Index column = first_column(fit_, t) + index(j);
-      const std::string source = f ? source_of(*f, a) : "";
+      const std::string source = f ? source_of(*f, a, c_.experiment.scenario()) : "";
       if (a.is_shape && !(std::sqrt(fit_.covariance(column, column)) <
                           criteria.normal_shape * std::fabs(a.held + one.size[index(j)]))) {
         lines_.push_back({unknown(a.quantity, 0),
@@ -225,29 +220,6 @@ private:
       square += fit_.terms[t].candidate.columns(row, j) * fit_.terms[t].candidate.columns(row, j);
     if (!(square > 0)) return;
     fit_.covariance(column, column) += f.spread * f.spread * static_cast<double>(c_.fitter.rows().size()) / square;
-  }
-
-  std::string source_of(const Finding& f, const Amplitude& a) const {
-    std::string out = fmt::format("{}, p = {:.2g}", name(f.kind), f.p_value);
-    if (f.kind == Kind::equivalence_class)
-      out += fmt::format(" of {}, which these data cannot distinguish; the first is written, with u enlarged by the "
-                         "difference between them",
-                         fmt::join(f.members, ", "));
-    for (const SizedQuantity& q : f.quantities) {
-      if (q.scenario_name != a.scenario_name) continue;
-      const bool shift = q.name.starts_with("shift of ");
-      const auto kind =
-          shift || a.quantity == Amplitude::npos || c_.experiment.scenario().quantities[a.quantity].unit != q.unit
-              ? units::Kind::difference
-              : units::Kind::point;
-      out += fmt::format("; 95 % interval{} [{}, {}]{}, {}", shift ? " of the shift" : "",
-                         number(q.low95, q.u, q.unit, q.si_unit, kind), number(q.high95, q.u, q.unit, q.si_unit, kind),
-                         units::suffix(q.unit),
-                         f.quantities.size() == 1 ? "which allows for the search, whereas u comes from the fit and "
-                                                    "does not"
-                                                  : "of the fit, like u");
-    }
-    return out;
   }
 
   /// The size of a stated effect, which a scenario without it does not count among its quantities.
