@@ -19,6 +19,9 @@ struct Term {
   Vector size; ///< one per amplitude, SI
 };
 
+/// A candidate over a finite step as a term, from the sizes over which it was taken.
+Term at_start(const Candidate& candidate);
+
 struct JointFit {
   std::vector<Term> terms;
   Points at; ///< all quantities, sizes of terms and fitted declared draws included

@@ -11,6 +11,12 @@ bool starts(const Term& t) { return !t.candidate.start.empty() && std::ranges::e
 
 } // namespace
 
+Term at_start(const Candidate& a) {
+  Term out{a, Eigen::Map<const Vector>(a.start.data(), index(a.start.size()))};
+  out.candidate.columns = Matrix::Zero(a.columns.rows(), out.size.size());
+  return out;
+}
+
 double found_size(const Term& term) {
   const auto& start = term.candidate.start;
   return std::max(Eigen::Map<const Vector>(start.data(), index(start.size())).norm(), term.size.norm());

@@ -27,17 +27,13 @@ const QuantityCard* card_of(const Experiment& e, std::size_t quantity) {
   return card == effect->quantities.end() || card->role == Role::shape ? nullptr : &*card;
 }
 
-/// Estimated quantities without a prior that have one value, and are not said to jump.
-Places of_one_value(const Experiment& e) {
-  const Scenario& s = e.scenario();
+/// Free unknowns that have one value for all readings, and are not said to jump.
+Places of_one_value(const Experiment& e, const Fitter& fitter) {
   Places out;
-  for (std::size_t q = 0; q < s.quantities.size(); ++q) {
-    const auto& quantity = s.quantities[q];
-    const bool known =
-        std::ranges::find(s.trace.jumping, quantity.name, &std::pair<std::string, double>::first) != s.trace.jumping.end();
-    if (quantity.estimated && quantity.entries.size() == 1 && quantity.entries[0].labels.empty() &&
-        quantity.entries[0].components.empty() && !known && card_of(e, q))
-      out.push_back(q);
+  for (const FreeUnknown& u : fitter.unknowns()) {
+    const auto& entries = e.scenario().quantities[u.quantity].entries;
+    if (u.jump == 0 && entries.size() == 1 && entries[0].labels.empty() && card_of(e, u.quantity))
+      out.push_back(u.quantity);
   }
   return out;
 }
@@ -113,12 +109,11 @@ std::vector<Term> found(const Experiment& e, const Simulator& simulator, const O
       return fitter.best_start(fit, a, sizes, step);
     };
     const CandidateMaker make(e, simulator, fit.at, o, criteria.secant_step * left, best);
-    auto candidates = jumping_candidates(make, changes_of(make, quantities));
+    const auto candidates = jumping_candidates(make, changes_of(make, quantities));
     if (candidates.empty()) break;
-    Candidate& next = *std::ranges::max_element(candidates, {}, &Candidate::exact_ratio);
+    const Candidate& next = *std::ranges::max_element(candidates, {}, &Candidate::exact_ratio);
     auto terms = fit.terms;
-    terms.push_back({next, Eigen::Map<const Vector>(next.start.data(), index(next.start.size()))});
-    terms.back().candidate.columns = Matrix::Zero(next.columns.rows(), index(next.start.size()));
+    terms.push_back(at_start(next));
     JointFit with = fitter.fit(terms, fit.noise, &fit);
     if (!with.valid) break;
     for (const Amplitude& a : next.amplitudes) std::erase(quantities, a.quantity);
@@ -132,7 +127,7 @@ std::vector<Term> found(const Experiment& e, const Simulator& simulator, const O
 std::optional<Scenario> with_jumping_found(const Scenario& scenario, const Experiment& experiment,
                                            const Simulator& simulator, const Observations& observations,
                                            const Fitter& fitter, int threads) {
-  const Places open = of_one_value(experiment);
+  const Places open = of_one_value(experiment, fitter);
   const double left = open.empty() ? 0 : left_by_tangents(fitter);
   if (!(left > 0)) return std::nullopt;
   const Places jumping = jumping_among(experiment, simulator, observations, open, left);

@@ -239,12 +239,6 @@ Term Evidence::linear_term(std::size_t a) const {
   return shape;
 }
 
-Term at_start(const Candidate& a) {
-  Term out{a, Eigen::Map<const Vector>(a.start.data(), index(a.start.size()))};
-  out.candidate.columns = Matrix::Zero(a.columns.rows(), out.size.size());
-  return out;
-}
-
 JointFit Evidence::with(const std::vector<Term>& more) const {
   auto terms = fit_.terms;
   terms.insert(terms.end(), more.begin(), more.end());

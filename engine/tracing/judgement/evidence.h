@@ -22,9 +22,6 @@ struct Trial {
   double worth() const;
 };
 
-/// A candidate over a finite step as a term, from the sizes over which it was taken.
-Term at_start(const Candidate& candidate);
-
 /// "polynomial:feed^2 (zero in the middle)"
 std::string with_shape(const Candidate& candidate);
 
