@@ -2,23 +2,21 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <limits>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "analysis/agreement.h"
 #include "analysis/weighted_mean.h"
+#include "base/special_values.h"
 
 using namespace gumshoe;
 using namespace gumshoe::analysis;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// A component, with its contribution c u.
-Contribution component(const std::string& name, double contribution, double degrees_of_freedom = infinite) {
+Contribution component(const std::string& name, double contribution, double degrees_of_freedom = infinity) {
   Contribution c;
   c.name = c.quantity = name;
   c.estimate = 1;
@@ -32,7 +30,7 @@ Contribution component(const std::string& name, double contribution, double degr
 
 /// A result of y whose u is that of its components; k is that of its degrees of freedom, infinite ones those of
 /// samples.
-Results result(double y, const std::vector<Contribution>& components, double degrees_of_freedom = infinite) {
+Results result(double y, const std::vector<Contribution>& components, double degrees_of_freedom = infinity) {
   Results out;
   Summary s;
   s.output = {.name = "y", .measurand = "y", .unit = "mm", .si_unit = "m"};
@@ -134,7 +132,7 @@ TEST_CASE("a strong correlation makes a weight negative", "[combine]") {
 }
 
 TEST_CASE("a component whose u is a t's counts in samples by its standard deviation", "[combine]") {
-  // Four degrees of freedom: variance 4 / (4 - 2) u^2 in the samples' u of 3 and 5 um.
+  // Four degrees of freedom: variance 4 / (4 - 2) u^2 in the samples' u of 3.
   auto t = component("reference", 2, 4);
   t.distribution = "t";
   Results a = result(0, {component("own", 1), t}), b = result(1, {component("own", 1), t});
@@ -171,7 +169,7 @@ TEST_CASE("what is no result of the same measurand, or has no weight, is not com
   refused({good, good}, "differ by nothing but what they share", {"a"});
   refused({good, good}, "not a quantity in the budgets", {"b"});
   auto kink = component("a", 1);
-  kink.sensitivity = kink.contribution = std::numeric_limits<double>::quiet_NaN();
+  kink.sensitivity = kink.contribution = gumshoe::nan;
   Results unknown = good;
   unknown.budgets[0].contributions = {kink};
   refused({good, unknown}, "what it shares is not known", {"a"});
