@@ -146,6 +146,21 @@ TEST_CASE("an estimated size with which readings jump is found from afar, and no
   }
 }
 
+TEST_CASE("an estimated size that an earlier trace of these readings found is not sought again", "[tracing]") {
+  constexpr double u = 1e-7;
+  const std::string wear = "{ estimated = true, value = \"0.1 um\" }";
+  const auto sought = [&](const std::string& of_trace) {
+    Case c(mill(u, wear) + of_trace);
+    Points at = c.simulator->estimates();
+    for (auto& reading : at) reading[c.quantity("wear_3")] -= 0.63e-6;
+    c.measure(at, noise(u, 2));
+    return with_jumping_found(c.scenario, *c.experiment, *c.simulator, c.observations, *c.fitter, 1).has_value();
+  };
+  CHECK(sought("[trace]\nalpha = 0.05\n"));
+  CHECK_FALSE(sought("[trace]\nfree = [ \"wear_3\" ]\n"));
+  CHECK_FALSE(sought("[trace.priors]\nwear_3 = " + wear + "\n"));
+}
+
 TEST_CASE("readings that were not fitted may jump where sizes as likely as the best say so", "[tracing]") {
   constexpr double u = 2e-8, jump = 1e-7; // m; far beyond the noise
   constexpr Index draws = 200;

@@ -27,12 +27,19 @@ const QuantityCard* card_of(const Experiment& e, std::size_t quantity) {
   return card == effect->quantities.end() || card->role == Role::shape ? nullptr : &*card;
 }
 
-/// Free unknowns that have one value for all readings, and are not said to jump.
+/// Whether an earlier trace of these readings fitted the quantity: this one starts where that ended.
+bool fitted_before(const scenario::TraceOptions& trace, const std::string& name) {
+  return std::ranges::find(trace.free, name) != trace.free.end() ||
+         std::ranges::find(trace.priors, name, &quantities::InputQuantity::name) != trace.priors.end();
+}
+
+/// Free unknowns that have one value for all readings, which no earlier trace has found.
 Places of_one_value(const Experiment& e, const Fitter& fitter) {
   Places out;
   for (const FreeUnknown& u : fitter.unknowns()) {
-    const auto& entries = e.scenario().quantities[u.quantity].entries;
-    if (u.jump == 0 && entries.size() == 1 && entries[0].labels.empty() && card_of(e, u.quantity))
+    const auto& quantity = e.scenario().quantities[u.quantity];
+    if (u.jump == 0 && quantity.entries.size() == 1 && quantity.entries[0].labels.empty() && card_of(e, u.quantity) &&
+        !fitted_before(e.scenario().trace, quantity.name))
       out.push_back(u.quantity);
   }
   return out;

@@ -7,8 +7,8 @@
 namespace gumshoe::tracing {
 
 /// The scenario with its estimated sizes of one value, with which readings jump, where a search explains the readings
-/// best, and named in `[trace] jumping`, from where the fit goes on. None if there are no such sizes that are not named
-/// there already. @param experiment  experiment of the extended scenario, as of `fitter`
+/// best, and named in `[trace] jumping`, from where the fit goes on. None if there are no such sizes, but for those
+/// that an earlier trace of the readings found. @param experiment  experiment of the extended scenario, as of `fitter`
 std::optional<scenario::Scenario> with_jumping_found(const scenario::Scenario& scenario,
                                                      const propagation::Experiment& experiment,
                                                      const Simulator& simulator, const Observations& observations,
