@@ -122,8 +122,9 @@ Index delta_index(const Order& x_order, const std::vector<double>& x, const Orde
     best = e;
   }
   // Classes blur the densities. Finer ones would bring 0.3 to 0.6 of what the last refinement brought (normal sums,
-  // shares of 4 to 98 %, by integration), and what is left of the bias by chance takes some of it back.
-  const double value = best.value + gain / 3, half = std::hypot(normal_95 * best.se, gain / 3);
+  // shares of 4 to 98 %, by integration), and what is left of the bias by chance takes some of it back. One that brings
+  // less than a standard error is not seen.
+  const double value = best.value + gain / 3, half = std::hypot(normal_95 * best.se, std::max(gain / 3, best.se));
   return make_index(value, value - half, value + half);
 }
 

@@ -14,6 +14,7 @@
 #include "tracing/criteria.h"
 #include "tracing/findings/comparison.h"
 #include "tracing/findings/findings.h"
+#include "tracing/findings/sizes.h"
 #include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starting_values.h"
 #include "tracing/judgement/holdout.h"
@@ -191,6 +192,18 @@ bool found_before(const scenario::Scenario& s) {
                             std::ranges::any_of(s.trace.priors, &quantities::InputQuantity::estimated));
 }
 
+/// Estimated sizes that were sought, because readings jump with them: `gumshoe estimate` does not find these.
+void state_sizes_sought(const scenario::Scenario& scenario, Trace& out) {
+  for (const calibration::Parameter& p : out.estimate.parameters) {
+    const quantities::InputQuantity& q = out.extended.quantities[p.unknown.quantity];
+    const bool jumps = std::ranges::find(scenario.trace.jumping, q.name, &std::pair<std::string, double>::first) !=
+                       scenario.trace.jumping.end();
+    if (jumps && !fitted_before(scenario.trace, q.name))
+      out.statements.push_back(fmt::format("estimated where readings jump with it: {} = {}", q.name,
+                                           with_u(p.value, p.standard_uncertainty, q.unit, q.si_unit)));
+  }
+}
+
 /// @param converged whether the fit of the declared model did
 Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool& converged) {
   Trace out;
@@ -271,6 +284,7 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
     out.outcome = Outcome::insufficient_data;
   }
   compose(c, stands, out);
+  state_sizes_sought(scenario, out);
   summarise(out);
   return out;
 }

@@ -138,8 +138,7 @@ TEST_CASE("delta of an input that does nothing is zero within its interval", "[g
 }
 
 TEST_CASE("intervals of delta cover at their nominal 95 %", "[given_data][coverage]") {
-  // y = a x + b e of normals: delta by quadrature. Binomial standard deviation of 300 runs: 1.3 %, four of them 5 %;
-  // the remainder of the classes is known to a quarter, which may take or give a few per cent.
+  // y = a x + b e of normals: delta by quadrature. Binomial standard deviation of 300 runs: 1.3 %, four of them 5 %.
   const char* fresh = std::getenv("GUMSHOE_LONG_SEED");
   const std::uint64_t first = fresh ? std::strtoull(fresh, nullptr, 10) : 1;
   const quantities::QuantileFunction normal({quantities::Family::normal, {0, 1}, nullptr, nullptr});

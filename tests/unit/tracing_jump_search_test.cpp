@@ -11,6 +11,7 @@
 #include "tracing/criteria.h"
 #include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starts.h"
+#include "tracing/trace.h"
 #include "unit/tracing_case.h"
 
 using namespace tracing_case;
@@ -159,6 +160,23 @@ TEST_CASE("an estimated size that an earlier trace of these readings found is no
   CHECK(sought("[trace]\nalpha = 0.05\n"));
   CHECK_FALSE(sought("[trace]\nfree = [ \"wear_3\" ]\n"));
   CHECK_FALSE(sought("[trace.priors]\nwear_3 = " + wear + "\n"));
+}
+
+TEST_CASE("a trace states an estimated size with which readings jump, and no other", "[tracing]") {
+  constexpr double u = 1e-7, off = -0.63e-6;
+  Case c(mill(u, "{ estimated = true, value = \"0.1 um\" }") + "[trace]\ndraws = 99\n");
+  Points at = c.simulator->estimates();
+  for (auto& reading : at) reading[c.quantity("wear_3")] += off;
+  c.measure(at, noise(u, 2));
+  const auto found = gumshoe::tracing::trace(c.scenario, {.threads = 1});
+  std::vector<std::string> stated;
+  for (const std::string& text : found.statements)
+    if (text.starts_with("estimated where readings jump with it")) stated.push_back(text);
+  REQUIRE(stated.size() == 1); // not tool_length
+  CAPTURE(stated[0]);
+  const std::string start = "estimated where readings jump with it: wear_3 = ";
+  REQUIRE(stated[0].starts_with(start));
+  CHECK(std::fabs(std::stod(stated[0].substr(start.size())) * 1e-3 - (0.1e-6 + off)) < step); // in mm
 }
 
 TEST_CASE("readings that were not fitted may jump where sizes as likely as the best say so", "[tracing]") {

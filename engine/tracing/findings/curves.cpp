@@ -26,16 +26,6 @@ std::size_t moved_indication(const Matrix& columns, std::size_t indications) {
   return 0;
 }
 
-/// "3.31 s, u = 0.01 s"
-/// @param shown  in place of the unit, where it has a name of its own
-std::string with_u(double x, double u, const std::string& unit, const std::string& si_unit, std::string shown = {}) {
-  shown = shown.empty() ? units::suffix(unit) : " " + shown;
-  const auto number = [&](double si) { return units::from_si(si, unit, si_unit, units::Kind::difference); };
-  const int decimals = analysis::decimals_for(number(u));
-  return fmt::format("{}{}, u = {}{}", analysis::fixed(number(x), decimals), shown,
-                     analysis::fixed(number(u), decimals), shown);
-}
-
 /// "readings" of differences along what counts them; else empty.
 std::string counted(const Covariate& c) { return counts_readings(c) ? "readings" : ""; }
 

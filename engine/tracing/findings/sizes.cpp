@@ -17,6 +17,14 @@ std::string shown_size(double si, const std::string& unit, const std::string& si
   return fmt::format("{:.3g}{}", units::from_si(si, unit, si_unit, units::Kind::difference), units::suffix(unit));
 }
 
+std::string with_u(double si, double u, const std::string& unit, const std::string& si_unit, std::string shown) {
+  shown = shown.empty() ? units::suffix(unit) : " " + shown;
+  const auto number = [&](double x) { return units::from_si(x, unit, si_unit, units::Kind::difference); };
+  const int decimals = analysis::decimals_for(number(u));
+  return fmt::format("{}{}, u = {}{}", analysis::fixed(number(si), decimals), shown,
+                     analysis::fixed(number(u), decimals), shown);
+}
+
 std::string display_unit(const Rms& rms) {
   double largest = 0;
   for (const double x : {rms.before, rms.after, rms.noise})

@@ -27,12 +27,6 @@ const QuantityCard* card_of(const Experiment& e, std::size_t quantity) {
   return card == effect->quantities.end() || card->role == Role::shape ? nullptr : &*card;
 }
 
-/// Whether an earlier trace of these readings fitted the quantity: this one starts where that ended.
-bool fitted_before(const scenario::TraceOptions& trace, const std::string& name) {
-  return std::ranges::find(trace.free, name) != trace.free.end() ||
-         std::ranges::find(trace.priors, name, &quantities::InputQuantity::name) != trace.priors.end();
-}
-
 /// Free unknowns that have one value for all readings, which no earlier trace has found.
 Places of_one_value(const Experiment& e, const Fitter& fitter) {
   Places out;
@@ -130,6 +124,11 @@ std::vector<Term> found(const Experiment& e, const Simulator& simulator, const O
 }
 
 } // namespace
+
+bool fitted_before(const scenario::TraceOptions& trace, const std::string& name) {
+  return std::ranges::find(trace.free, name) != trace.free.end() ||
+         std::ranges::find(trace.priors, name, &quantities::InputQuantity::name) != trace.priors.end();
+}
 
 std::optional<Scenario> with_jumping_found(const Scenario& scenario, const Experiment& experiment,
                                            const Simulator& simulator, const Observations& observations,

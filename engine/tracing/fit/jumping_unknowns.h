@@ -14,4 +14,7 @@ std::optional<scenario::Scenario> with_jumping_found(const scenario::Scenario& s
                                                      const Simulator& simulator, const Observations& observations,
                                                      const Fitter& fitter, int threads);
 
+/// Whether an earlier trace of these readings fitted the quantity: this one starts where that ended.
+bool fitted_before(const scenario::TraceOptions& trace, const std::string& name);
+
 } // namespace gumshoe::tracing
