@@ -138,16 +138,19 @@ TEST_CASE("delta of an input that does nothing is zero within its interval", "[g
 }
 
 TEST_CASE("intervals of delta cover at their nominal 95 %", "[given_data][coverage]") {
-  // y = a x + b e of normals: delta by quadrature. Binomial standard deviation of 300 runs: 1.3 %, four of them 5 %.
+  // y = a x + b e of normals: delta by quadrature. Four binomial standard deviations of 300 runs: 5 %; three of the
+  // 4,800 from a fresh seed: 0.9 %, which tells 95 % from the 93 % where nothing stands for gains of finer classes
+  // unseen.
   const char* fresh = std::getenv("GUMSHOE_LONG_SEED");
   const std::uint64_t first = fresh ? std::strtoull(fresh, nullptr, 10) : 1;
   const quantities::QuantileFunction normal({quantities::Family::normal, {0, 1}, nullptr, nullptr});
-  constexpr std::uint64_t n = 16'384, runs = 300;
+  constexpr std::uint64_t n = 16'384;
+  const int runs = fresh ? 4'800 : 300;
   for (const double share : {0.3, 0.6, 0.9}) {
     const double a = std::sqrt(share), b = std::sqrt(1 - share), truth = delta_of_normal_sum(a, b);
     int held = 0;
     double width = 0, squares = 0, error = 0;
-    for (std::uint64_t k = 0; k < runs; ++k) {
+    for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(runs); ++k) {
       auto x = uniforms(2 * (first + k) + 1'000'001, n), y = uniforms(2 * (first + k) + 1'000'002, n);
       normal(x.data(), x.data(), n);
       normal(y.data(), y.data(), n);
@@ -160,7 +163,7 @@ TEST_CASE("intervals of delta cover at their nominal 95 %", "[given_data][covera
     }
     INFO("share " << share << ": held " << held << " of " << runs << ", width " << width << ", rms error "
                   << std::sqrt(squares) << ", mean " << error);
-    CHECK(held > 0.90 * runs);
+    CHECK(held > (fresh ? 0.941 : 0.90) * runs);
     CHECK(width < 1.5 * 2 * 1.96 * std::sqrt(squares)); // not twice too wide
   }
 }

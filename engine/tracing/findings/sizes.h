@@ -6,7 +6,8 @@ namespace gumshoe::tracing {
 
 /// A length change in its own unit, "12.3 um".
 std::string shown_size(double si, const std::string& unit, const std::string& si_unit);
-/// "3.31 s, u = 0.01 s" @param shown  in place of the unit, where it has a name of its own
+/// A size and its standard uncertainty (SI) in its own unit, to two digits of the latter: "3.31 s, u = 0.01 s".
+/// @param shown  in place of the unit, where it has a name of its own
 std::string with_u(double si, double u, const std::string& unit, const std::string& si_unit, std::string shown = {});
 /// Unit in which these figures are shown: their own; of lengths as suits the largest (units::error_unit).
 std::string display_unit(const Rms& rms);
