@@ -227,8 +227,9 @@ struct Criteria {
   /// Growth of the hold-out's root mean square that vetoes a finding, and the standard deviations by which its
   /// predicted change must be larger than the readings show: a right finding is overstated so in one of twenty.
   double veto_growth = 1.05, overstated = 1.645;
-  /// The same of what the last of several rounds found, which is judged once more: seldom by chance.
-  double overstated_last = 3;
+  /// The same of what must seldom be rejected by chance: what the last of several rounds found, which is judged once
+  /// more, and what all readings together show beyond this (2 ln L), which one false alarm in 150 exceeds.
+  double overstated_surely = 3, outweighs = 10;
   /// Growth at which a drift is vetoed beyond its end, too: one that levels off there leaves at most about its range,
   /// of which a constant leaves half; curves that cancel only where they were fitted leave any multiple.
   double astray = 4;

@@ -247,6 +247,12 @@ class Names(unittest.TestCase):
         self.assertIn("bad readings cut", v["plain"][1])
         self.assertEqual([round(abs(o["residual"])) for o in v["outliers"]], [25], v["outliers"])
 
+    def test_what_the_training_data_show_stands_where_the_rest_is_predicted_worse_by_chance(self):
+        """Strength 8, a tenth to a fifth of the readings left out: they alone reject the right name."""
+        for name, found, seed in (("rod_gauging declared:rod_length[rod 3]@8 white", "declared:rod_length[rod 3]", 4612),
+                                  ("single_socket x_reversal@8 white", "x_reversal", 4619)):
+            self.assertEqual(self.battery(name, seed), [found], seed)
+
     def test_outliers_at_the_start_are_no_shape(self):
         for seed in (1, 2, 3):
             v = self.line(lambda x, t: (20, 8, 5)[t // 10] if t < 30 else 0, seed)

@@ -13,6 +13,7 @@
 #include "tracing/findings/errors.h"
 #include "tracing/findings/findings.h"
 #include "tracing/judgement/decisions.h"
+#include "tracing/judgement/evidence.h"
 #include "tracing/judgement/holdout.h"
 #include "tracing/noise/pure_error.h"
 
@@ -41,7 +42,7 @@ constexpr std::uint16_t scale_of_noise = 5; ///< stream of random numbers, after
 class Comparison {
 public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
-      : c_(c), rows_(c.fitter.rows()), base_(s.base), before_(s.base), after_(s.found), judged_(s.found),
+      : c_(c), search_(s), rows_(c.fitter.rows()), base_(s.base), before_(s.base), after_(s.found), judged_(s.found),
         previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), has_previous_(s.stages.size() > 1),
         out_(out) {
     // Scatter is declared from now on, with the size that the traced scenario states: what is an outlier, and how large
@@ -194,6 +195,14 @@ private:
     return refused;
   }
 
+  /// What the findings explain of the training data, each given all others, beyond what it had to.
+  double beyond_chance() const {
+    double out = 0;
+    for (const SearchFinding& f : search_.findings)
+      if (!f.terms.empty()) out += gain_of(c_, search_.found, f.terms, f.component >= 0) - f.threshold;
+    return out;
+  }
+
   /// Blocks that are insensitive to what was found can neither confirm nor reject it. One bad reading must not decide.
   bool judge(const Blocks& blocks, const Scores& before, const Scores& after) {
     if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || after_.terms.empty()) return false;
@@ -214,11 +223,15 @@ private:
       return false;
     }
     const Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
-                                       overstated(before, after, judged_.design), out_.rms.holdout_noise_high);
-    out_.unconfirmed = says == Holdout::unsure;
-    if (out_.unconfirmed)
+                                       overstated(before, after, judged_.design), out_.rms.holdout_noise_high,
+                                       [&] { return beyond_chance(); });
+    out_.unconfirmed = says == Holdout::unsure || says == Holdout::outweighed;
+    if (says == Holdout::unsure)
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
                                 "chance gives: they can neither confirm nor reject it");
+    if (says == Holdout::outweighed)
+      out_.statements.push_back("the hold-out blocks alone would reject what was found, but the training data show it "
+                                "by far more: confirm it by another measurement");
     return says == Holdout::vetoes;
   }
 
@@ -227,7 +240,7 @@ private:
     if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || !has_previous_) return false;
     const Scores before = verdict(previous_, bad, blocks);
     return after.whitened > before.whitened && after.rms[0] > criteria.veto_growth * before.rms[0] &&
-           overstated(before, after, judged_.design) > criteria.overstated_last;
+           overstated(before, after, judged_.design) > criteria.overstated_surely;
   }
 
   /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.
@@ -325,6 +338,7 @@ private:
   }
 
   const TraceContext& c_;
+  const Search& search_;
   const std::vector<Index>& rows_;
   JointFit base_;   ///< the declared model with its own noise: where the round before ended
   JointFit before_; ///< the same in units of the noise of `judged_`

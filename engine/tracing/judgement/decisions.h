@@ -91,13 +91,17 @@ enum class Holdout {
   /// They are predicted no better, but by no more than chance were the findings true: they can neither confirm nor
   /// reject them.
   unsure,
+  /// They alone would reject them; the training data show them by far more.
+  outweighed,
   vetoes
 };
 /// They also veto if the error does not fall and noise alone seldom gives one as large, however uncertain the sizes
 /// are.
 /// @param overstated  by how many standard deviations the predicted change is larger than the readings show
 /// @param noise_high  upper end of the root mean squares that noise alone gives, in the unit of `rms`
-Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated, double noise_high);
+/// @param beyond      likelihood ratio (2 ln) of the findings in the training data, less what they had to exceed
+Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated, double noise_high,
+                      const std::function<double()>& beyond);
 /// Kind of a finding after a veto: scatter if it was a member of the class and is not another finding; none for an
 /// effect. A shape is reported, though not added: what it describes is there, in some blocks.
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone);
