@@ -231,6 +231,10 @@ class Names(unittest.TestCase):
         for seed in (1100, 1103):
             self.assertEqual(self.battery("lever stated:play@10+stated:drift@8 white", seed), ["play", "drift"], seed)
 
+    def test_a_cause_that_explains_as_much_goes_before_a_curve(self):
+        """Passes that may scatter hide most of a drift: its square in time passes the threshold, the drift does not."""
+        self.assertEqual(self.battery("positioning stated:drift@8 white", 4604), ["drift"])
+
     def test_a_curve_in_a_condition_is_not_named_after_an_effect_of_that_condition(self):
         for seed in (1108, 1115):
             self.assertEqual(self.battery("rod_gauging cubic@12 white", seed), ["not in the catalogue"], seed)

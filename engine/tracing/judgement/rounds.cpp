@@ -259,6 +259,24 @@ private:
     adopt(best.fit);
   }
 
+  /// An effect that does not pass by itself, in place of a shape that does: it has a cause, and explains as much.
+  bool take_of_equal_merit(std::size_t shape, double score_of_shape) {
+    if (!sought_.names) return false;
+    for (const std::size_t a :
+         evidence_->best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_refitted)) {
+      if (evidence_->score(a) < evidence_->score(shape) - criteria.equal_merit) break;
+      const Trial one = evidence_->trial(a);
+      if (!one.fit.valid || one.implausible || at_a_limit(one.fit.terms.back()) ||
+          one.score < score_of_shape - criteria.equal_merit || sizes(candidate(a)) > sizes(candidate(shape)) ||
+          evidence_->gain_beside(a, shape) > evidence_->limit(shape) || !evidence_->predicts_better(one.fit))
+        continue;
+      as_well_ = shape;
+      take({one});
+      return true;
+    }
+    return false;
+  }
+
   /// No known effect: the dependence itself, as smooth as the data ask for.
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
@@ -272,7 +290,7 @@ private:
         continue;
       }
       if (evidence_->predicts_better(fit, Judged::as_declared)) {
-        add_shape(a, fit, assessment.p_signature, rivals_of(*evidence_, a, tried));
+        if (!take_of_equal_merit(a, score)) add_shape(a, fit, assessment.p_signature, rivals_of(*evidence_, a, tried));
         return true;
       }
       described.emplace_back(a, std::move(fit));
