@@ -136,32 +136,34 @@ TEST_CASE("effects that explain as much as scatter are tried in its place", "[tr
 TEST_CASE("hold-out blocks veto what does not predict them better", "[tracing]") {
   constexpr double noise = 3e-6; // m: 97.5 % of what noise alone gives
   const auto none = [] { return 0.0; };
-  CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, 3, noise, none) == Holdout::confirms);
-  CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, 2, noise, none) ==
+  CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, {3, 0}, noise, none) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, {2, 0}, noise, none) ==
         Holdout::vetoes); // no better in units of all that is declared
   // The root mean square grows by more than 5 %.
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, 2, noise, none) == Holdout::vetoes);
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, 3, noise, none) == Holdout::confirms);
-  CHECK(judge_holdout({30, 2e-6}, {31, 2.2e-6}, 1, noise, none) ==
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, {2, 0}, noise, none) == Holdout::vetoes);
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, {3, 0}, noise, none) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {31, 2.2e-6}, {1, 0}, noise, none) ==
         Holdout::unsure); // as chance gives were the finding true
 }
 
 TEST_CASE("hold-out blocks veto what leaves them with more than noise and no less than before", "[tracing]") {
   constexpr double noise = 1e-6;
   const auto none = [] { return 0.0; };
-  CHECK(judge_holdout({30, 2e-6}, {31, 2e-6}, 1, noise, none) == Holdout::vetoes);
-  CHECK(judge_holdout({30, 2e-6}, {31, 1.9e-6}, 1, noise, none) == Holdout::unsure);   // something else may be left
-  CHECK(judge_holdout({30, 0.8e-6}, {31, 0.9e-6}, 1, noise, none) == Holdout::unsure); // noise gives as much
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.05e-6}, 1, noise, none) ==
+  CHECK(judge_holdout({30, 2e-6}, {31, 2e-6}, {1, 0}, noise, none) == Holdout::vetoes);
+  CHECK(judge_holdout({30, 2e-6}, {31, 1.9e-6}, {1, 0}, noise, none) == Holdout::unsure); // something else may be left
+  CHECK(judge_holdout({30, 0.8e-6}, {31, 0.9e-6}, {1, 0}, noise, none) == Holdout::unsure); // noise gives as much
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.05e-6}, {1, 0}, noise, none) ==
         Holdout::confirms); // in units of all that is declared
 }
 
 TEST_CASE("hold-out blocks veto what all readings together show only if it is overstated by far", "[tracing]") {
   constexpr double noise = 1e-6;
   const auto far_beyond = [] { return 27.0; };
-  CHECK(judge_holdout({30, 2e-6}, {45, 2.4e-6}, 2.9, noise, far_beyond) == Holdout::outweighed); // 27 - 15 > 10
-  CHECK(judge_holdout({30, 2e-6}, {48, 2.4e-6}, 2.9, noise, far_beyond) == Holdout::vetoes);     // 27 - 18 < 10
-  CHECK(judge_holdout({30, 2e-6}, {45, 2.4e-6}, 3.1, noise, far_beyond) == Holdout::vetoes); // one of 1,000 right ones
+  CHECK(judge_holdout({30, 2e-6}, {45, 2.4e-6}, {2.9, 0}, noise, far_beyond) == Holdout::outweighed); // 27 - 15 > 10
+  CHECK(judge_holdout({30, 2e-6}, {48, 2.4e-6}, {2.9, 0}, noise, far_beyond) == Holdout::vetoes);     // 27 - 18 < 10
+  CHECK(judge_holdout({30, 2e-6}, {45, 2.4e-6}, {3.1, 0}, noise, far_beyond) ==
+        Holdout::vetoes); // one of 1,000 right ones
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.4e-6}, {2, 3.1}, noise, far_beyond) == Holdout::vetoes); // scatter hides it
 }
 
 TEST_CASE("after a veto scatter remains, effects do not", "[tracing]") {

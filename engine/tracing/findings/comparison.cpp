@@ -195,9 +195,11 @@ private:
     return refused;
   }
 
-  /// What the findings explain of the training data, each given all others, beyond what it had to.
+  /// What the findings explain of the training data, each given all others, beyond what it had to; zero if it is of a
+  /// few readings.
   double beyond_chance() const {
     double out = 0;
+    if (explains_few(c_, search_.base, search_.found)) return out;
     for (const SearchFinding& f : search_.findings)
       if (!f.terms.empty()) out += gain_of(c_, search_.found, f.terms, f.component >= 0) - f.threshold;
     return out;
@@ -230,8 +232,8 @@ private:
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
                                 "chance gives: they can neither confirm nor reject it");
     if (says == Holdout::outweighed)
-      out_.statements.push_back("the hold-out blocks alone would reject what was found, but the training data show it "
-                                "by far more: confirm it by another measurement");
+      out_.statements.push_back("the hold-out blocks are predicted worse with what was found, as chance seldom gives, "
+                                "but the training data show it by far more: confirm it by another measurement");
     return says == Holdout::vetoes;
   }
 
@@ -240,7 +242,7 @@ private:
     if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || !has_previous_) return false;
     const Scores before = verdict(previous_, bad, blocks);
     return after.whitened > before.whitened && after.rms[0] > criteria.veto_growth * before.rms[0] &&
-           overstated(before, after, judged_.design) > criteria.overstated_surely;
+           overstated(before, after, judged_.design).plain > criteria.overstated_surely;
   }
 
   /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.

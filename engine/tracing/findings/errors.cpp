@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include "tracing/criteria.h"
 #include "tracing/judgement/holdout.h"
 
@@ -59,7 +62,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
   out.in_first = in_first;
   Vector squares = Vector::Zero(residual.cols());
   double count = 0;
-  out.residual = Vector::Constant(residual.rows(), Scores::none);
+  out.residual = out.units = out.weighted = Vector::Constant(residual.rows(), Scores::none);
   for (std::size_t b = 0; b < blocks.rows.size(); ++b) {
     std::vector<Index> train;
     std::set_difference(training.begin(), training.end(), blocks.rows[b].begin(), blocks.rows[b].end(),
@@ -74,6 +77,8 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
     const double rms = std::sqrt(of_block[0] / held.count);
     if (!(rms <= out.worst_block)) out.worst_block = rms, out.worst_name = blocks.names[b];
     out.residual(held.rows) = held.residual.col(0);
+    out.units(held.rows) = held.units;
+    out.weighted(held.rows) = held.weighted;
   }
   for (Index j = 0; j < residual.cols(); ++j)
     out.rms.push_back(count > 0 ? std::sqrt(squares[j] / count) : Scores::none);
@@ -99,16 +104,39 @@ Vector excess(const Scores& before, const Scores& after, const Design& design) {
   return out;
 }
 
-double overstated(const Scores& before, const Scores& after, const Design& design) {
-  double sum = 0, squares = 0;
-  for (Index i = 0; i < after.residual.size(); ++i) {
-    const double noise = noise_of_row(design, i), r = after.residual[i] / noise,
-                 gained = (before.residual[i] - after.residual[i]) / noise;
-    if (!std::isfinite(r) || !std::isfinite(gained)) continue;
-    sum += gained * r;
-    squares += gained * gained * r * r;
-  }
-  return squares > 0 ? -sum / std::sqrt(squares) : 0;
+namespace {
+
+/// Standard normal number as probable as a sum over the root of the sum of its n squares, which is sqrt(n) at most: by
+/// Student's t of these numbers.
+double as_normal(double ratio, double n) {
+  const double rest = n - ratio * ratio, freedom = n - 1;
+  if (!(ratio > 0) || !(freedom > 0)) return ratio;
+  const boost::math::students_t t(freedom);
+  const double beyond = rest > 0 ? boost::math::cdf(complement(t, ratio * std::sqrt(freedom / rest))) : 0;
+  return boost::math::quantile(complement(boost::math::normal(), std::max(beyond, 1e-300)));
+}
+
+} // namespace
+
+Overstated overstated(const Scores& before, const Scores& after, const Design& design) {
+  const auto of = [&](const auto& gained_and_left) {
+    double sum = 0, squares = 0, count = 0;
+    for (Index i = 0; i < after.residual.size(); ++i) {
+      const auto [gained, r] = gained_and_left(i);
+      if (!std::isfinite(r) || !std::isfinite(gained)) continue;
+      sum += gained * r;
+      squares += gained * gained * r * r;
+      count += gained != 0;
+    }
+    return squares > 0 ? as_normal(-sum / std::sqrt(squares), count) : 0;
+  };
+  return {of([&](Index i) {
+            const double noise = noise_of_row(design, i);
+            return std::pair{(before.residual[i] - after.residual[i]) / noise, after.residual[i] / noise};
+          }),
+          of([&](Index i) {
+            return std::pair{before.units[i] - after.units[i], after.weighted[i]};
+          })};
 }
 
 InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tracing/fit/joint_fit.h"
+#include "tracing/judgement/decisions.h"
 
 namespace gumshoe::tracing {
 
@@ -26,6 +27,7 @@ struct Scores {
   double worst_block = none;
   std::string worst_name;
   Vector residual; ///< of the first set, all rows; NaN where not scored
+  Vector units, weighted; ///< HeldOut::units, weighted; all rows, NaN where not scored
   Vector in_first; ///< by indication: what its residual counts as, in the unit of the first one's
 
   bool scored() const;
@@ -46,10 +48,8 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
 /// two predictions, the lesser of the two; all rows, zero elsewhere.
 Vector excess(const Scores& before, const Scores& after, const Design& design);
 
-/// By how many standard deviations the change c that a prediction gains on another is larger than the readings show:
-/// -sum(c r) / sqrt(sum(c^2 r^2)) of its residuals r, in units of the noise. Were it true, this would be a standard
-/// normal number, however unequal the noise. 0 where nothing changes.
-double overstated(const Scores& before, const Scores& after, const Design& design);
+/// Overstated, as hold-out blocks have it, of one prediction over another.
+Overstated overstated(const Scores& before, const Scores& after, const Design& design);
 
 /// The fit's own readings about the unknowns and declared draws, by least squares without correlation or component: of
 /// equal noise, more terms never leave more.

@@ -86,13 +86,13 @@ bool larger_noise_found(const Assessment& a, double alpha) {
          std::ranges::none_of(a.p_component, [&](double p) { return p <= alpha; });
 }
 
-Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated, double noise_high,
-                      const std::function<double()>& beyond) {
+Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, const Overstated& overstated,
+                      double noise_high, const std::function<double()>& beyond) {
   if (after.whitened < before.whitened && after.rms <= criteria.veto_growth * before.rms) return Holdout::confirms;
   const bool beyond_noise = after.rms >= before.rms && after.rms > noise_high;
-  if (!(overstated > criteria.overstated || beyond_noise)) return Holdout::unsure;
-  const bool by_chance =
-      overstated <= criteria.overstated_surely && beyond() - (after.whitened - before.whitened) > criteria.outweighs;
+  if (!(overstated.plain > criteria.overstated || beyond_noise)) return Holdout::unsure;
+  const bool by_chance = std::max(overstated.plain, overstated.weighted) <= criteria.overstated_surely &&
+                         beyond() - (after.whitened - before.whitened) > criteria.outweighs;
   return by_chance ? Holdout::outweighed : Holdout::vetoes;
 }
 

@@ -85,6 +85,13 @@ bool larger_noise_found(const Assessment& assessment, double alpha);
 struct HoldoutError {
   double whitened = 0, rms = 0;
 };
+/// By how many standard deviations the change c that a prediction gains on another is larger than the readings show:
+/// -sum(c r) / sqrt(sum(c^2 r^2)) of its residuals r, and the standard normal number that is as improbable for so many
+/// readings. Were the change true, that would be one, however unequal the noise. 0 where nothing changes.
+struct Overstated {
+  double plain = 0;    ///< in units of the noise of readings, declared draws as fitted
+  double weighted = 0; ///< by the covariance of all that is declared: scatter of blocks hides nothing
+};
 /// What the hold-out blocks say of findings to which they are sensitive.
 enum class Holdout {
   confirms,
@@ -97,11 +104,10 @@ enum class Holdout {
 };
 /// They also veto if the error does not fall and noise alone seldom gives one as large, however uncertain the sizes
 /// are.
-/// @param overstated  by how many standard deviations the predicted change is larger than the readings show
 /// @param noise_high  upper end of the root mean squares that noise alone gives, in the unit of `rms`
 /// @param beyond      likelihood ratio (2 ln) of the findings in the training data, less what they had to exceed
-Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated, double noise_high,
-                      const std::function<double()>& beyond);
+Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, const Overstated& overstated,
+                      double noise_high, const std::function<double()>& beyond);
 /// Kind of a finding after a veto: scatter if it was a member of the class and is not another finding; none for an
 /// effect. A shape is reported, though not added: what it describes is there, in some blocks.
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone);

@@ -314,15 +314,15 @@ bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& mod
   return error(other) < error(fit_);
 }
 
-bool Evidence::of_few(const JointFit& other) const {
-  CovarianceModel model = other.covariance_model;
+bool explains_few(const TraceContext& c, const JointFit& without, const JointFit& with) {
+  CovarianceModel model = with.covariance_model;
   model.correlation = 0; // it would spread what is of one reading
   const auto squares = [&](const JointFit& fit) {
-    const auto use = independent(fit.design, c_.fitter.rows());
-    const Whitened plain(fit.design, c_.fitter.rows(), use, {}), white(plain, model);
+    const auto use = independent(fit.design, c.fitter.rows());
+    const Whitened plain(fit.design, c.fitter.rows(), use, {}), white(plain, model);
     return Vector(white.left_over(plain.winsorised(plain.take(fit.residual))).array().square());
   };
-  return of_few_readings(squares(fit_) - squares(other), c_.observations.indications);
+  return of_few_readings(squares(without) - squares(with), c.observations.indications);
 }
 
 double Evidence::chance_of_lead(std::size_t better, std::size_t than, double lead) const {

@@ -28,6 +28,10 @@ std::string with_shape(const Candidate& candidate);
 /// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
 Repeats repeats_of(const TraceContext& context, const JointFit& fit);
 
+/// Whether what one fit removes and another leaves is of a few successive readings (criteria.h): outliers, and no
+/// shape.
+bool explains_few(const TraceContext& context, const JointFit& without, const JointFit& with);
+
 class Evidence {
 public:
   /// Finds the candidates at the point of `fit` (kept by reference) and assesses them. @param round keys the draws
@@ -72,8 +76,7 @@ public:
     return predicts_better(other, other.covariance_model, judged);
   }
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
-  /// Whether what `other` removes is of a few successive readings (criteria.h): outliers, and no shape.
-  bool of_few(const JointFit& other) const;
+  bool of_few(const JointFit& other) const { return explains_few(c_, fit_, other); }
   /// Probability that `better` would lead `than` by so much if `than` were true; by simulation.
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;
   /// Cosine of two projected signatures.
