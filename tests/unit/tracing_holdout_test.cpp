@@ -3,6 +3,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 
+#include "tracing/findings/errors.h"
 #include "tracing/findings/interval.h"
 #include "tracing/judgement/holdout.h"
 #include "unit/tracing_dense.h"
@@ -51,6 +52,7 @@ TEST_CASE("a block is predicted from the others, its own constant projected out"
       CHECK(held.whitened[j] ==
             Approx(gls(covariance(d, test, {0, s.scatter, s.ratio}), own, rest).squares).epsilon(1e-9));
     }
+    CHECK(held.declared.dot(held.weighted) == Approx(held.whitened[0]).epsilon(1e-9));
     // The block's own constant may be anything.
     Matrix shifted = residual;
     // A metre: 1e6 times the noise, of which double precision leaves 1e-10.
@@ -59,6 +61,26 @@ TEST_CASE("a block is predicted from the others, its own constant projected out"
     CHECK((again.residual - held.residual).norm() < 1e-9 * held.residual.norm());
     CHECK((again.whitened - held.whitened).norm() < 1e-8 * held.whitened.norm());
   }
+}
+
+TEST_CASE("a change is overstated by the normal number that is as improbable for so few readings", "[tracing]") {
+  const auto of = [](const Vector& gained, const Vector& left) {
+    Design d = random_design(static_cast<std::size_t>(left.size()), 1, 1, 0, 1, 5);
+    for (Matrix& noise : d.local) noise.setOnes();
+    Scores before, after;
+    after.residual = after.declared = after.weighted = left;
+    before.residual = before.declared = left + gained;
+    return overstated(before, after, d).plain;
+  };
+  // Two readings of which one tells: Student's t of one degree of freedom is 1, beyond which lies a quarter.
+  CHECK(of(Vector::Constant(2, -1), Vector::Unit(2, 0)) == Approx(0.6744897502).epsilon(1e-9));
+  // Nine that agree give 3 as it stands, the most that nine can: no chance gives them.
+  CHECK(of(Vector::Constant(9, -1), Vector::Ones(9)) > 30);
+  // Of many, the ratio itself: 400 readings, 230 of them one way.
+  Vector left = Vector::Ones(400);
+  left.tail(170).setConstant(-1);
+  CHECK(of(Vector::Constant(400, -1), left) == Approx((230 - 170) / std::sqrt(400.0)).epsilon(0.01));
+  CHECK(of(Vector::Constant(400, 1), left) == Approx(-3).epsilon(0.01)); // understated
 }
 
 TEST_CASE("a term is fitted to the training rows only", "[tracing]") {

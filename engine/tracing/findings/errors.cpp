@@ -62,7 +62,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
   out.in_first = in_first;
   Vector squares = Vector::Zero(residual.cols());
   double count = 0;
-  out.residual = out.units = out.weighted = Vector::Constant(residual.rows(), Scores::none);
+  out.residual = out.declared = out.weighted = Vector::Constant(residual.rows(), Scores::none);
   for (std::size_t b = 0; b < blocks.rows.size(); ++b) {
     std::vector<Index> train;
     std::set_difference(training.begin(), training.end(), blocks.rows[b].begin(), blocks.rows[b].end(),
@@ -77,7 +77,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
     const double rms = std::sqrt(of_block[0] / held.count);
     if (!(rms <= out.worst_block)) out.worst_block = rms, out.worst_name = blocks.names[b];
     out.residual(held.rows) = held.residual.col(0);
-    out.units(held.rows) = held.units;
+    out.declared(held.rows) = held.declared;
     out.weighted(held.rows) = held.weighted;
   }
   for (Index j = 0; j < residual.cols(); ++j)
@@ -135,7 +135,7 @@ Overstated overstated(const Scores& before, const Scores& after, const Design& d
             return std::pair{(before.residual[i] - after.residual[i]) / noise, after.residual[i] / noise};
           }),
           of([&](Index i) {
-            return std::pair{before.units[i] - after.units[i], after.weighted[i]};
+            return std::pair{before.declared[i] - after.declared[i], after.weighted[i]};
           })};
 }
 

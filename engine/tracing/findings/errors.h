@@ -27,7 +27,7 @@ struct Scores {
   double worst_block = none;
   std::string worst_name;
   Vector residual; ///< of the first set, all rows; NaN where not scored
-  Vector units, weighted; ///< HeldOut::units, weighted; all rows, NaN where not scored
+  Vector declared, weighted; ///< HeldOut::declared, weighted; all rows, NaN where not scored
   Vector in_first; ///< by indication: what its residual counts as, in the unit of the first one's
 
   bool scored() const;

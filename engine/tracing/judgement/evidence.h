@@ -76,6 +76,7 @@ public:
     return predicts_better(other, other.covariance_model, judged);
   }
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
+  /// The same of the fit and another one.
   bool of_few(const JointFit& other) const { return explains_few(c_, fit_, other); }
   /// Probability that `better` would lead `than` by so much if `than` were true; by simulation.
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;

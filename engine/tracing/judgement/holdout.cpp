@@ -56,8 +56,8 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   if (out.count <= 0) return out;
   // Squares of what the offsets leave: those may be millions of times the noise, and differences would lose digits.
   out.whitened = declared.squares(as_declared);
-  out.units = declared.in_units(as_declared.col(0));
-  out.weighted = declared.weighted_units(out.units);
+  out.declared = declared.in_units(as_declared.col(0));
+  out.weighted = declared.weighted_units(out.declared);
   return out;
 }
 

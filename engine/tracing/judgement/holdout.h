@@ -8,8 +8,8 @@ namespace gumshoe::tracing {
 struct HeldOut {
   Matrix residual;  ///< test rows x sets, SI; the block's offsets are subtracted
   Vector whitened;  ///< sum of squares by set, in units of the whole declared covariance; expectation: count
-  Vector units;     ///< the first set, draws as declared, in units of the noise of readings
-  Vector weighted;  ///< the same by the inverse of that covariance: their products are `whitened`
+  Vector declared;  ///< the first set, draws as declared, in units of the noise of readings
+  Vector weighted;  ///< the same by the inverse of that covariance: the product of both is its `whitened`
   double count = 0; ///< rows minus the block's offsets; 0: not scored
   std::vector<Index> rows;
 };
