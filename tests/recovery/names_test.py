@@ -235,6 +235,11 @@ class Names(unittest.TestCase):
         """Passes that may scatter hide most of a drift: its square in time passes the threshold, the drift does not."""
         self.assertEqual(self.battery("positioning stated:drift@8 white", 4604), ["drift"])
 
+    def test_a_cause_goes_before_a_line_that_explains_as_much_of_the_scatter(self):
+        """The passes' means lie on a line in time, which is the drift's own signature."""
+        for seed in (4802, 4814):
+            self.assertEqual(self.battery("positioning stated:drift@8 white", seed), ["drift"], seed)
+
     def test_a_curve_in_a_condition_is_not_named_after_an_effect_of_that_condition(self):
         for seed in (1108, 1115):
             self.assertEqual(self.battery("rod_gauging cubic@12 white", seed), ["not in the catalogue"], seed)

@@ -106,6 +106,7 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
   const double gain = e.assessment().data.scatter(scatter.component, 0);
   const auto rivals = explain_scatter(all, gain);
   for (const std::size_t a : rivals) {
+    if (out.shape && all[a].score < all[*out.shape].score - criteria.equal_merit) break;
     const Fit linear = without.fit(a);
     if (plain(a)) {
       if (a != rivals[0]) continue;
@@ -113,10 +114,9 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
         out.as_well = a;
         continue;
       }
-      out.fit = e.with({e.linear_term(a)});
-      if (!out.fit.valid || !e.predicts_better(out.fit, without.model(linear))) continue;
-      out.shape = a;
-      return out;
+      out.with_shape = e.with({e.linear_term(a)});
+      if (out.with_shape.valid && e.predicts_better(out.with_shape, without.model(linear))) out.shape = a;
+      continue;
     }
     const Candidate& effect = e.candidates()[a];
     JointFit fit = e.with({effect.start.empty() ? Term{effect, linear.size} : at_start(effect)});

@@ -330,14 +330,14 @@ private:
     if (!found) return false;
     if (found->component >= 0) {
       const InPlaceOfScatter instead = in_place_of_scatter(c_, *evidence_, *found);
-      if (instead.shape) {
-        add_shape(*instead.shape, instead.fit, found->finding.p_value);
-        return true;
-      }
       if (sought_.names && !instead.effects.terms.empty()) {
         for (const std::size_t a : instead.members) outcomes_[a] = "explains the scatter";
         add(instead.effects);
         adopt(instead.fit);
+        return true;
+      }
+      if (instead.shape) {
+        add_shape(*instead.shape, instead.with_shape, found->finding.p_value);
         return true;
       }
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
