@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/certificate.h"
 #include "analysis/circular.h"
@@ -14,6 +15,7 @@
 #include "analysis/fit.h"
 #include "analysis/given_data.h"
 #include "analysis/gum.h"
+#include "analysis/index_verdict.h"
 #include "analysis/joint.h"
 #include "analysis/record.h"
 #include "analysis/rounding.h"
@@ -26,6 +28,7 @@
 #include "analysis/target.h"
 #include "base/instruction_set.h"
 #include "base/progress.h"
+#include "base/special_values.h"
 #include "base/units.h"
 #include "base/version.h"
 #include "propagation/propagate.h"
@@ -62,11 +65,12 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
     text += fmt::format("; the shortest {} coverage interval is [{}, {}]{}", coverage_text(p),
                         fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {
-    text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit,
+    text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}{}", fixed(width(b.expanded_uncertainty), d), unit,
                         b.coverage_factor,
                         std::isfinite(b.effective_degrees_of_freedom)
                             ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
-                            : "");
+                            : "",
+                        v.verdict == "validated" ? uncertainty_of_factor(s, b) : "");
     if (!b.remark.empty()) text += "; " + b.remark;
     if (v.verdict != "validated") text += fmt::format(" ({} by Monte Carlo)", v.verdict);
   }
@@ -164,6 +168,27 @@ void add_monte_carlo_column(Results& r) {
   }
 }
 
+/// Indices are shares of a variance: of an output without one they say nothing.
+void doubt_indices(Results& r) {
+  const std::string unknown(verdict(nan, nan));
+  std::vector<std::string> names;
+  for (std::size_t o = 0; o < r.summaries.size(); ++o) {
+    if (std::isfinite(r.summaries[o].standard_uncertainty)) continue;
+    const bool sobol = o < r.sensitivities.size(), shapley = o < r.shapley.size();
+    if (sobol)
+      for (SobolIndex& i : r.sensitivities[o].indices) i.first_verdict = i.total_verdict = unknown;
+    if (sobol)
+      for (SobolPair& pair : r.sensitivities[o].pairs) pair.verdict = unknown;
+    if (shapley)
+      for (Index& i : r.shapley[o].effects) i.verdict = unknown;
+    if (sobol || shapley) names.push_back(r.summaries[o].output.name);
+  }
+  if (!names.empty())
+    r.notes.push_back(fmt::format("{}: no variance, of which Sobol' indices and Shapley effects are shares: what is "
+                                  "given for them depends on the samples drawn",
+                                  fmt::join(names, ", ")));
+}
+
 InputDraws input_draws(const propagation::Experiment& e) {
   InputDraws draws;
   for (const auto& variate : e.plan().variates) {
@@ -209,7 +234,11 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
     KeptOrder order;
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads, &order);
     const Budget& b = r.budgets[o];
-    if (!(b.applicable && b.combined_standard_uncertainty > 0.5 * summary.standard_uncertainty)) join_rounded(summary);
+    if (!(b.applicable && b.combined_standard_uncertainty > 0.5 * summary.standard_uncertainty)) {
+      double largest = 0; // where contributions cancel, rounding is theirs
+      for (const Contribution& c : b.contributions) largest = std::fmax(largest, c.contribution);
+      join_rounded(summary, largest);
+    }
     withhold(summary, without_variance(e, b), values, order, threads);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     warn_of_resolution(summary, b);
@@ -244,6 +273,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
     result = compute();
   };
   study(wanted.shapley > 0, "Shapley effects", r.shapley, [&] { return shapley_effects(e, wanted.shapley, workers); });
+  doubt_indices(r);
   study(wanted.given_data > 0, "indices from given data", r.given_data,
         [&] { return given_data_indices(e, samples.values, wanted.given_data, threads); });
   study(wanted.morris > 0, "screening by elementary effects", r.morris,

@@ -25,6 +25,12 @@ std::string certificate_line(const Summary& s, double p, bool error) {
       coverage_text(p));
 }
 
+std::string uncertainty_of_factor(const Summary& s, const Budget& b) {
+  const auto text = [&](double u) { return with_suitable_unit(u, s.output.unit, s.output.si_unit); };
+  const std::string u_c = text(b.combined_standard_uncertainty);
+  return u_c == text(s.standard_uncertainty) ? "" : ", of u_c = " + u_c;
+}
+
 void certify(Summary& s, const Budget& b, const Validation& v, double p, bool error) {
   const bool gum = b.applicable && v.verdict == "validated";
   s.expanded_uncertainty = gum ? b.expanded_uncertainty : s.monte_carlo_expanded;

@@ -15,4 +15,8 @@ void certify(Summary& summary, const Budget& budget, const Validation& validatio
 /// "laser_z = (10.003387 +- 0.000099) mm, k = 1.96, 95 %" of a summary with U and k.
 std::string certificate_line(const Summary& summary, double coverage_probability, bool error = false);
 
+/// ", of u_c = 0.15 mm", that U of the framework is k times, where Monte Carlo has another u in the digits shown: of t
+/// distributions with few degrees of freedom u_c has the scale, u the standard deviation. Else empty.
+std::string uncertainty_of_factor(const Summary& summary, const Budget& budget);
+
 } // namespace gumshoe::analysis

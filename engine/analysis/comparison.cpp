@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <span>
 
 #include "analysis/summary.h"
 
@@ -31,12 +33,21 @@ Column difference_of(const Column& a, const Column& b) {
           a.phase()};
 }
 
+/// Where the values of one label do not tell all of them apart, the outputs do.
+void tell_apart(std::span<ComparisonResult> results) {
+  std::set<std::string> names;
+  for (const ComparisonResult& r : results) names.insert(r.name);
+  if (names.size() == results.size()) return;
+  for (ComparisonResult& r : results) r.name = r.a + " - " + r.b;
+}
+
 } // namespace
 
 std::vector<ComparisonResult> compare(const propagation::Experiment& e, const ValuesOf& values,
                                       const std::vector<Summary>& summaries, int threads) {
   std::vector<ComparisonResult> results;
-  for (const auto& c : e.scenario().analysis.comparisons)
+  for (const auto& c : e.scenario().analysis.comparisons) {
+    const std::size_t before = results.size();
     for (std::size_t i = 0; i < e.outputs().size(); ++i)
       for (std::size_t j = i + 1; j < e.outputs().size(); ++j) {
         const auto &a = e.outputs()[i], &b = e.outputs()[j];
@@ -62,6 +73,8 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         r.normalised_error = r.difference / r.expanded_uncertainty;
         results.push_back(r);
       }
+    tell_apart(std::span(results).subspan(before));
+  }
   return results;
 }
 
@@ -72,7 +85,7 @@ std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, cons
       const auto& output = e.outputs()[o];
       if (output.measurand != printed.measurand || !matches(output.labels, printed.labels)) continue;
       results.push_back({output.name, printed.source, output.unit, output.si_unit, printed.value, summaries[o].estimate,
-                         0.5 * (summaries[o].shortest.high - summaries[o].shortest.low)});
+                         summaries[o].expanded_uncertainty});
     }
   return results;
 }

@@ -20,27 +20,35 @@ std::vector<double> plain(const propagation::Experiment& e, std::size_t reading,
   return out;
 }
 
-/// At a kink: which quantities the kink concerns, by comparing the slopes on either side.
-void one_sided(const propagation::Experiment& e, std::size_t reading, const std::vector<double>& point,
-               std::vector<Derivatives>& of) {
+/// At a kink: which measurands and quantities it concerns, by the values on either side; the others keep their
+/// derivatives, unless these are of a branch of the model that others left. @return measurands that are smooth
+std::vector<bool> find_kinks(const propagation::Experiment& e, std::size_t reading, const std::vector<double>& point,
+                             std::vector<Derivatives>& of) {
+  constexpr double fraction = 1.0 / 64, alike = 1e-3;
+  std::vector<bool> smooth(of.size(), true);
+  const std::vector<double> u = steps(e, reading, point);
   for (std::size_t q = 0; q < point.size(); ++q) {
-    const double h = 1e-6 * std::max(1e-3, std::fabs(point[q]));
-    auto up = point, down = point;
-    up[q] += h;
-    down[q] -= h;
-    const std::vector<double> above = plain(e, reading, up), below = plain(e, reading, down);
+    const double h = u[q] > 0 && std::isfinite(u[q]) ? fraction * u[q] : 1e-6 * std::max(1e-3, std::fabs(point[q]));
+    const auto at = [&](double by) {
+      auto shifted = point;
+      shifted[q] += by;
+      return plain(e, reading, shifted);
+    };
+    const std::vector<double> up = at(h), down = at(-h), half_up = at(0.5 * h), half_down = at(-0.5 * h);
     for (std::size_t m = 0; m < of.size(); ++m) {
-      const double right = (above[m] - of[m].value) / h, left = (of[m].value - below[m]) / h;
-      const double scale = std::max({std::fabs(left), std::fabs(right), 1e-9});
-      // On a smooth branch the slopes differ by h times the curvature; at a kink by their own size.
-      if (!(std::fabs(right - left) < 1e-2 * scale)) {
-        of[m].differentiable[q] = false;
-        of[m].first[q] = std::nan("");
-      } else {
-        of[m].first[q] = 0.5 * (left + right);
+      const double slope = (4 * (half_up[m] - half_down[m]) - 0.5 * (up[m] - down[m])) / (3 * h);
+      double& first = of[m].first[q];
+      if (!std::isfinite(slope) || is_kink(up[m], down[m], half_up[m], half_down[m], of[m].value)) {
+        of[m].differentiable[q] = smooth[m] = false;
+        first = std::nan("");
+      } else if (const double most = std::max({std::fabs(of[m].value), std::fabs(up[m]), std::fabs(down[m])});
+                 !(std::fabs(first - slope) <= alike * std::fabs(slope) + rounding(most) / h)) {
+        smooth[m] = false;
+        first = slope;
       }
     }
   }
+  return smooth;
 }
 
 /// Second derivatives by dual numbers of dual numbers.
@@ -92,10 +100,11 @@ std::vector<Derivatives> differentiate(const propagation::Experiment& e, std::si
   }
   for (Derivatives& d : out) d.status = status;
   if (status != Status::ok) return out;
-  if (kink)
-    one_sided(e, reading, point, out);
-  else if (second)
-    add_second(e, reading, point, out);
+  const std::vector<bool> smooth = kink ? find_kinks(e, reading, point, out) : std::vector<bool>(out.size(), true);
+  if (!second || std::ranges::find(smooth, true) == smooth.end()) return out;
+  add_second(e, reading, point, out);
+  for (std::size_t m = 0; m < out.size(); ++m)
+    if (!smooth[m]) out[m].second.clear();
   return out;
 }
 

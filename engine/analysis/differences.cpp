@@ -15,28 +15,6 @@ namespace {
 
 using Point = std::vector<double>;
 
-/// A full step of one standard uncertainty, short of the quantity's limits; 0: does not
-/// vary.
-std::vector<double> steps(const propagation::Experiment& e, std::size_t reading, const Point& point) {
-  const auto& plan = e.plan();
-  const auto& columns = e.columns_at(reading);
-  std::vector<double> h(point.size(), 0.0);
-  for (std::size_t q = 0; q < point.size(); ++q) {
-    for (const std::size_t v : plan.columns[columns[q]].variates) {
-      const auto& d = plan.variates[v].distribution;
-      h[q] = std::hypot(h[q], d.standard_uncertainty());
-    }
-    if (h[q] == 0) continue;
-    if (const std::size_t of = plan.columns[columns[q]].quantity; e.layout().model.contains(of)) {
-      const gumshoe::Limits& limits = e.model().card->quantities[of].limits;
-      const double room = std::min(point[q] - limits.low, limits.high - point[q]);
-      if (room > 0) h[q] = std::min(h[q], 0.999 * room);
-    }
-    h[q] = std::exp2(std::floor(std::log2(h[q]))); // point + step - point is then the step again, mostly
-  }
-  return h;
-}
-
 /// Collects the points of a stencil as shifts from its centre, which is the first.
 struct Stencil {
   std::size_t add(std::vector<propagation::Change> shifts) {
@@ -49,17 +27,6 @@ struct Stencil {
 struct Line {
   std::size_t up, down, half_up, half_down; ///< points at +h, -h, +h/2, -h/2
 };
-
-/// What rounding makes of a value f0.
-double rounding(double f0) { return 64 * std::numeric_limits<double>::epsilon() * std::fabs(f0); }
-
-/// Whether the slopes on either side of the point differ by a kink: on a smooth branch their difference halves with
-/// the step, at a kink it stays.
-bool is_kink(double up, double down, double half_up, double half_down, double f0) {
-  const double full = std::fabs(up - 2 * f0 + down), half = 2 * std::fabs(half_up - 2 * f0 + half_down);
-  const double size = std::max(std::fabs(up - f0), std::fabs(down - f0));
-  return half > 0.75 * full && half > 0.01 * size && half > rounding(f0);
-}
 
 /// Where the model is evaluated, and by which point each derivative is found.
 struct Places {
@@ -178,6 +145,34 @@ bool needs_second(const propagation::Experiment& e, std::size_t reading) {
 }
 
 } // namespace
+
+std::vector<double> steps(const propagation::Experiment& e, std::size_t reading, const Point& point) {
+  const auto& plan = e.plan();
+  const auto& columns = e.columns_at(reading);
+  std::vector<double> h(point.size(), 0.0);
+  for (std::size_t q = 0; q < point.size(); ++q) {
+    for (const std::size_t v : plan.columns[columns[q]].variates) {
+      const auto& d = plan.variates[v].distribution;
+      h[q] = std::hypot(h[q], d.standard_uncertainty());
+    }
+    if (h[q] == 0) continue;
+    if (const std::size_t of = plan.columns[columns[q]].quantity; e.layout().model.contains(of)) {
+      const gumshoe::Limits& limits = e.model().card->quantities[of].limits;
+      const double room = std::min(point[q] - limits.low, limits.high - point[q]);
+      if (room > 0) h[q] = std::min(h[q], 0.999 * room);
+    }
+    h[q] = std::exp2(std::floor(std::log2(h[q]))); // point + step - point is then the step again, mostly
+  }
+  return h;
+}
+
+double rounding(double value) { return 64 * std::numeric_limits<double>::epsilon() * std::fabs(value); }
+
+bool is_kink(double up, double down, double half_up, double half_down, double f0) {
+  const double full = std::fabs(up - 2 * f0 + down), half = 2 * std::fabs(half_up - 2 * f0 + half_down);
+  const double size = std::max(std::fabs(up - f0), std::fabs(down - f0));
+  return half > 0.75 * full && half > 0.01 * size && half > rounding(f0);
+}
 
 std::vector<Derivatives> differences(const propagation::Experiment& e, std::size_t reading, const Point& point,
                                      bool second) {

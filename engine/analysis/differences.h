@@ -5,6 +5,15 @@
 
 namespace gumshoe::analysis {
 
+/// A step of one standard uncertainty by each quantity, short of its limits, a power of two; 0: it does not vary there.
+std::vector<double> steps(const propagation::Experiment& experiment, std::size_t reading,
+                          const std::vector<double>& point);
+/// What rounding makes of a value.
+double rounding(double value);
+/// Whether the slopes on either side of a value differ by a kink: on a smooth branch their difference halves with the
+/// step, at a kink it stays. @param half_up  at half of the step
+bool is_kink(double up, double down, double half_up, double half_down, double value);
+
 /// Central differences over one and half a standard uncertainty, extrapolated to a step of zero (Richardson), by
 /// every quantity that varies at this reading; NaN by the others. All points in one call. At a kink, where the slopes
 /// on either side do not come together, not differentiable. `second`: Hessian and the third derivatives of JCGM 100

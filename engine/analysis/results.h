@@ -25,7 +25,7 @@ struct Summary {
   bool estimate_is_median = false;
   double standard_uncertainty = 0, standard_uncertainty_se = 0; ///< NaN if none exists; see `warning`
   double skewness = 0, kurtosis = 0;
-  /// U and k = U/u of the certificate: the GUM framework's where Monte Carlo validates it, else those of the samples.
+  /// U and k of the certificate: the GUM framework's where Monte Carlo validates it, else those of the samples.
   /// `monte_carlo_expanded` is the half-width about the estimate that covers the coverage probability. NaN: none.
   double expanded_uncertainty = 0, coverage_factor = 0, monte_carlo_expanded = 0;
   double degrees_of_freedom = 0; ///< effective, of that k; infinite also where k is that of the samples

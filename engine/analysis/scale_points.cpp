@@ -29,9 +29,11 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
   std::vector<Derivatives> all;
   for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
     const auto& output = e.outputs()[m];
-    // A result in K is noted only where two or more such inputs are added.
-    const bool as_point = has_own_zero(output.unit, output.si_unit);
-    if (!as_point && (output.si_unit != "K" || points < 2)) continue;
+    // A result in K is noted only where two or more such inputs are added, one of another kind where it is
+    // proportional.
+    const bool as_point = has_own_zero(output.unit, output.si_unit), other = output.si_unit != "K";
+    if (!as_point && points < (other ? 1 : 2)) continue;
+    if (other && stencils_at_estimates(e)) continue; // runs of the model for one note
     const auto point = e.point(output.reading);
     if (all.empty())
       all = stencils_at_estimates(e)
@@ -39,14 +41,20 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
                 : differentiate(e, output.reading, point, false);
     const Derivatives& d = all[m];
     const auto& columns = e.columns_at(output.reading);
-    double weight = 0;
-    bool any = false;
+    double weight = 0, from_zero = 0;
+    std::size_t any = 0, last = 0;
     for (std::size_t q = 0; q < point.size(); ++q) {
       if (d.first[q] == 0 || !is_point(e.plan().columns[columns[q]].quantity)) continue;
       weight += d.first[q];
-      any = true;
+      from_zero += d.first[q] * point[q];
+      last = e.plan().columns[columns[q]].quantity;
+      ++any;
     }
-    if (!any || std::isnan(weight) || std::fabs(weight - 1) < 1e-6) continue;
+    if (any == 0 || std::isnan(weight)) continue;
+    if (other && any == 1 && std::fabs(from_zero - d.value) <= 1e-9 * std::fabs(d.value))
+      notes.push_back(fmt::format("{}: proportional to {}, counted from 0 K; state a difference of temperatures in K",
+                                  output.measurand, quantities[last].name));
+    if (other || std::fabs(weight - 1) < 1e-6) continue;
     if (as_point)
       notes.push_back(
           fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "

@@ -279,10 +279,11 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
   return s;
 }
 
-void join_rounded(Summary& s) {
+void join_rounded(Summary& s, double largest) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   if (!std::isfinite(s.estimate)) return; // the values are too large for their mean
-  if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::fabs(s.estimate))) return;
+  if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::max(std::fabs(s.estimate), largest)))
+    return;
   s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = 0;
   s.skewness = s.kurtosis = s.shortest_length_se = 0;
   for (Interval* i : {&s.symmetric, &s.shortest}) {

@@ -163,6 +163,7 @@ std::optional<Moment> parse_iso(std::string_view text) {
   if (!put(f.year, 4)) return std::nullopt;
   const bool dashes = in.take('-');
   if (!put(f.month, 2) || (dashes && !in.take('-')) || !put(f.day, 2)) return std::nullopt;
+  if (dashes && in.done()) return moment_of(f); // its midnight
   if (!in.take('T') && !in.take('t')) {
     if (!in.blank()) return std::nullopt;
     in.skip_blanks();

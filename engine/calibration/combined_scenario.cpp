@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "base/version.h"
 #include "calibration/scenario_text.h"
 #include "scenario/write.h"
@@ -41,7 +42,9 @@ public:
         text_node(fmt::format("{}, weighted mean of {} results", mean_.mean.output.name, parts_.size()));
     Node& model = member(document, "model");
     member(model, "name") = text_node("expression");
-    member(member(model, "measurands"), measurand_) = text_node(formula());
+    Node& measurand = member(member(model, "measurands"), measurand_);
+    member(measurand, "formula") = text_node(formula());
+    member(measurand, "unit") = text_node(mean_.mean.output.unit);
     Node& quantities = member(document, "quantities");
     for (std::size_t i = 0; i < parts_.size(); ++i) describe_part(i, member(quantities, parts_[i]));
     for (std::size_t k = 0; k < shared_.size(); ++k) describe_shared(mean_.shared[k], member(quantities, shared_[k]));
@@ -114,7 +117,9 @@ private:
 
   void describe_shared(const SharedPart& s, Node& quantity) const {
     const auto& output = mean_.mean.output;
-    member(quantity, "value") = measure_node(0, output.unit, output.si_unit, true);
+    // An error is a difference: "0 degC" would be a point.
+    member(quantity, "value") =
+        measure_node(0, units::difference_unit(output.unit, output.si_unit), output.si_unit, true);
     describe_spread(quantity, std::fabs(size_of(s)), s.degrees_of_freedom);
     std::vector<std::string> files;
     for (std::size_t i = 0; i < parts_.size(); ++i)

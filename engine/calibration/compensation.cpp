@@ -83,7 +83,8 @@ private:
            left.empty()       ? "no effect has a size"
            : left.size() == 1 ? fmt::format("{} {}", left[0].name, left[0].why)
                               : fmt::format("{} {}, and {} more", left[0].name, left[0].why, left.size() - 1),
-           "use the scenario that gumshoe trace or gumshoe estimate wrote");
+           "use the scenario that gumshoe trace or gumshoe estimate wrote, or name the quantities of the model that "
+           "count, such as a gain: --with gain");
   }
 
   std::size_t condition(const std::string& name) const {

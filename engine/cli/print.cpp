@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/certificate.h"
 #include "analysis/rounding.h"
 #include "analysis/selection.h"
 #include "base/error.h"
@@ -66,7 +67,7 @@ void print_details(const Results& r, std::size_t o, bool budget) {
                              coverage_text(r.coverage_probability), fixed(point(s.output, s.shortest.low), d),
                              fixed(point(s.output, s.shortest.high), d), units::suffix(s.output.unit));
     if (v.verdict == "validated")
-      std::cout << "; U and k of the GUM framework, validated by Monte Carlo";
+      std::cout << "; U and k of the GUM framework, validated by Monte Carlo" << uncertainty_of_factor(s, b);
     else if (b.applicable)
       std::cout << fmt::format(
           "; U and k by Monte Carlo; GUM framework: U = {} with k = {:.2f}{} ({})", width(b.expanded_uncertainty),

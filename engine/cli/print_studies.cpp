@@ -92,6 +92,13 @@ std::string limits(const ConformityResult& c, double low, double high) {
                             : "from " + limit(c, low) + " to " + limit(c, high);
 }
 
+std::string rule_text(const std::string& rule) {
+  return rule == "iso_14253_1"         ? "ISO 14253-1"
+         : rule == "ilac_g8"           ? "ILAC-G8"
+         : rule == "simple_acceptance" ? "simple acceptance"
+                                       : "as stated";
+}
+
 void print_conformity(const Results& r, std::ostream& out) {
   for (const ConformityResult& c : r.conformity) {
     const auto percent = [&](double p) { return probability_text(p, c.least_risk); };
@@ -105,8 +112,9 @@ void print_conformity(const Results& r, std::ostream& out) {
       if (std::isfinite(risk)) out << fmt::format(", {} {}", name, percent(risk));
     out << fmt::format("\n  tolerance {}, acceptance {}, estimate {}; decision rule {}, guard band w = {}{}\n",
                        limits(c, c.lower, c.upper), limits(c, c.acceptance_lower, c.acceptance_upper),
-                       limit(c, c.estimate), c.rule, shown(c.guard_band, c.output.unit, c.output.si_unit),
-                       c.acceptance_lower >= c.acceptance_upper ? "; the guard bands leave no room for acceptance" : "");
+                       limit(c, c.estimate), rule_text(c.rule), shown(c.guard_band, c.output.unit, c.output.si_unit),
+                       c.acceptance_lower >= c.acceptance_upper ? "; the guard bands leave no room for acceptance"
+                                                                : "");
   }
 }
 

@@ -149,10 +149,13 @@ void Experiment::linearise_prediction() {
 void Experiment::add_outputs(std::size_t r) {
   const auto labels = joint_ ? quantities::Labels{} : scenario_.readings[r].labels;
   const std::string at = joint_ ? "" : reading_names_[r];
-  for (const VariableCard& m : measurands_)
-    outputs_.push_back(
-        {(virtual_ && !m.diagnostic ? "error of " : "") + std::string(m.name) + (at.empty() ? "" : "[" + at + "]"),
-         std::string(m.name), r, std::string(m.unit), std::string(m.si_unit), labels, m.diagnostic});
+  for (const VariableCard& m : measurands_) {
+    const bool error = virtual_ && !m.diagnostic;
+    const std::string unit(m.unit), si_unit(m.si_unit);
+    outputs_.push_back({(error ? "error of " : "") + std::string(m.name) + (at.empty() ? "" : "[" + at + "]"),
+                        std::string(m.name), r, error ? units::difference_unit(unit, si_unit) : unit, si_unit, labels,
+                        m.diagnostic});
+  }
 }
 
 /// Readings that agree in everything the solve reads share one solve.

@@ -76,8 +76,9 @@ def all_rows(budgets):
     return [[(name, BOLD) for name in ("output", *COLUMNS)]] + [[b.output, *component_row(b, c)] for b in budgets for c in b.rows]
 
 
-def budget_rows(b, p):
-    """The budget in the output's unit. u_c is a formula over the contributions, unless inputs are correlated."""
+def budget_rows(b, p, verdict=None):
+    """The budget in the output's unit. u_c is a formula over the contributions, unless inputs are correlated.
+    verdict: of the validation by Monte Carlo; unless it is "validated", the certificate has another U."""
     rows = [[(b.output, BOLD)], [(name, BOLD) for name in COLUMNS]] + [component_row(b, c) for c in b.rows]
     if not b.applicable:
         return rows + [[], [f"GUM framework not applicable: {b.reason}"]]
@@ -92,7 +93,9 @@ def budget_rows(b, p):
         below("effective degrees of freedom", b.effective_degrees_of_freedom or math.inf),
         below("coverage factor k", b.coverage_factor),
         below(f"expanded uncertainty U, {probability(p)}".replace("\u202f", " "),
-              Formula(f"J{row_of_u + 2}*J{row_of_u}", U), b.display_units)]
+              Formula(f"J{row_of_u + 2}*J{row_of_u}", U), b.display_units),
+        *([] if verdict in (None, "validated") else [
+            [f"GUM framework: {verdict} by Monte Carlo, whose U and k the result states"]])]
 
 
 def sheet_names(outputs):
@@ -113,8 +116,10 @@ def budget(r):
     budgets = [b for b in r.budgets if b.rows]
     if not budgets:
         return None
+    verdicts = {v.name: v.verdict for v in r.validations}
     contents = {"budgets": all_rows(budgets)} if len(budgets) > SHEETS else dict(
-        zip(sheet_names([b.output for b in budgets]), (budget_rows(b, r.coverage_probability) for b in budgets)))
+        zip(sheet_names([b.output for b in budgets]),
+            (budget_rows(b, r.coverage_probability, verdicts.get(b.output)) for b in budgets)))
     names = list(contents)
     sheets = "".join(f'<sheet name={quoteattr(n)} sheetId="{k}" r:id="rId{k}"/>' for k, n in enumerate(names, 1))
     related = "".join(f'<Relationship Id="rId{k}" Type="{OFFICE}/worksheet" Target="worksheets/sheet{k}.xml"/>'

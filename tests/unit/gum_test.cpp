@@ -210,6 +210,30 @@ TEST_CASE("an aligned square rod: the framework does not apply, and says by what
   CHECK(summary.estimate == Approx(exact).epsilon(0.01));
 }
 
+TEST_CASE("a kink of one measurand leaves the budgets of the others", "[gum]") {
+  // Sizes that differences over a fixed step do not resolve: 10 kHz beside 473 THz, 5 Pa beside 210 GPa.
+  const known_case::Case c(
+      "schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\nf = \"f0 + df\"\np = \"E + dp\"\n"
+      "sag = { formula = \"L * tilt^2 / 2\", unit = \"um\" }\ncube = \"x^3\"\ng = \"abs(df)\"\nh = \"abs(x) + df / "
+      "f0\"\n"
+      "[quantities]\nf0 = { value = \"473.6127 THz\" }\ndf = { value = \"0 Hz\", u = \"10 kHz\" }\nE = { value = \"210 "
+      "GPa\" }\n"
+      "dp = { value = \"0 Pa\", u = \"5 Pa\" }\nL = { value = \"1 m\" }\ntilt = { value = \"0 mrad\", u = \"1 mrad\" "
+      "}\n"
+      "x = { value = 0, u = 1 }\n");
+  const auto budget = [&](std::size_t output) { return analysis::budget(c.experiment, output, 0.95); };
+  CHECK(budget(0).combined_standard_uncertainty == Approx(1e4).epsilon(1e-12));
+  CHECK(budget(1).combined_standard_uncertainty == Approx(5).epsilon(1e-12));
+  CHECK(budget(2).applicable);
+  CHECK(budget(2).combined_standard_uncertainty == 0);
+  CHECK(budget(2).second_order_bias == Approx(0.5e-6).epsilon(1e-9)); // u^2 / 2
+  CHECK(budget(3).combined_standard_uncertainty == 0);
+  CHECK(budget(3).second_order_uncertainty == 0); // its third derivative has no term to this order
+  CHECK_FALSE(budget(4).applicable);
+  CHECK(budget(4).reason == "there is no derivative at the estimate with respect to df");
+  CHECK(budget(5).reason == "there is no derivative at the estimate with respect to x");
+}
+
 TEST_CASE("second-order terms: mean and u agree with Monte Carlo where curvature matters", "[gum]") {
   // Pitch so uncertain that the height's curvature shows; the fraction too.
   const auto s = rod2({{"trigger_fraction", {component(Family::normal, {0, 0.12})}}});

@@ -1,0 +1,167 @@
+"""Numbers that a result states side by side fit each other: temperatures and their errors, U and k and u, the certificate
+and what is compared with it, and indices of what has no variance.
+
+usage: numbers_together_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import pathlib
+import sys
+import tempfile
+import unittest
+
+from program import ROOT, gumshoe
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "reports"))
+from gumshoe_report import read, workbook
+
+HEAD = 'schema = 1\n[model]\nname = "expression"\n'
+
+
+class NumbersTogether(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = pathlib.Path(temporary.name)
+
+    def run_command(self, *words, code=0):
+        run = gumshoe(*words, cwd=self.path)
+        self.assertEqual(run.returncode, code, run.stderr)
+        return run.stdout
+
+    def result(self, text, name="s", samples=20000):
+        """Text and JSON of a scenario."""
+        (self.path / f"{name}.toml").write_text(HEAD + text)
+        words = ("run", f"{name}.toml", "--out", f"{name}.h5", "--force", "--samples", samples)
+        return self.run_command(*words), json.loads(self.run_command(*words, "--format", "json"))
+
+    def test_an_error_of_a_temperature_is_a_difference(self):
+        text, said = self.result('''method = "virtual_experiment"
+[model.indications]
+r = "T + b"
+[model.measurands]
+Tm = { formula = "r", unit = "degC" }
+[quantities]
+T = { value = "30 degC" }
+b = { value = "0 K", u = "0.2 K" }
+[indications.r]
+components = [{ u = "0.1 K", per = "reading" }]
+[[analysis.conformity]]
+measurand = "Tm"
+lower = "-0.5 K"
+upper = "0.5 K"
+''')
+        output, = said
+        self.assertEqual(output["unit"], "K")
+        self.assertLess(abs(output["estimate"]), 0.01)
+        self.assertLess(abs(sum(output["shortest"])), 0.05)
+        self.assertIn("tolerance from -0.50 K to 0.50 K", text)
+        self.assertNotIn("273", text)
+
+    def test_a_mean_of_temperatures_that_share_an_input_runs_to_the_same(self):
+        for unit, value in (("degC", 20.1), ("degF", 71.0)):
+            for seed, name in ((1, "a"), (2, "b")):
+                self.result(f'''[model.measurands]
+T = {{ formula = "x + ref", unit = "{unit}" }}
+[quantities]
+x = {{ value = "{value + seed} {unit}", u = "0.1 K" }}
+ref = {{ value = "0 K", u = "0.05 K" }}
+[run]
+seed = {seed}
+''', name)
+            mean = json.loads(self.run_command("combine", "a.h5", "b.h5", "--same", "ref", "--out", "mean.toml", "--force",
+                                               "--format", "json"))["means"][0]
+            words = ("run", "mean.toml", "--out", "mean.h5", "--force", "--samples", 20000, "--format", "json")
+            again, = json.loads(self.run_command(*words))
+            self.assertEqual((again["unit"], mean["unit"]), (unit, unit))
+            self.assertAlmostEqual(again["estimate"], mean["estimate"], delta=0.01)
+            self.assertAlmostEqual(again["standard_uncertainty"], mean["standard_uncertainty"], delta=0.005)
+
+    def test_the_u_of_which_the_framework_states_k_times(self):
+        """Of a t of 5 degrees of freedom the samples have u sqrt(5 / 3), u_c has u."""
+        text, said = self.result('''[model.measurands]
+y = { formula = "x", unit = "mm" }
+[quantities]
+x = { value = "10 mm", u = "0.15 mm", degrees_of_freedom = 5 }
+''', samples=4_000_000)
+        self.assertIn("u = 0.19 mm;", text)
+        self.assertIn("U and k of the GUM framework, validated by Monte Carlo, of u_c = 0.15 mm", text)
+        output, = said
+        self.assertAlmostEqual(output["expanded_uncertainty"] / output["coverage_factor"], 0.15, delta=1e-6)
+
+    def test_printed_results_are_compared_by_the_certificate(self):
+        """Exponential of mean 2: U = 2 (ln 20 - 1) about the estimate, and not half of the shortest interval, ln 20."""
+        text, said = self.result('''[model.measurands]
+y = { formula = "x", unit = "mm" }
+[quantities]
+x = { distribution = "exponential", mean = "2 mm" }
+[[analysis.printed]]
+measurand = "y"
+value = "2.1 mm"
+source = "S"
+''')
+        output, = said
+        result = read.result(self.path / "s.h5")
+        self.assertEqual(result.printed[0].expanded_uncertainty, result.outputs[0].expanded_uncertainty)
+        self.assertAlmostEqual(output["expanded_uncertainty"], 2 * (math.log(20) - 1), delta=0.15)
+        rows = workbook.budget_rows(result.budgets[0], 0.95, "not validated")
+        self.assertEqual(rows[-1], ["GUM framework: not validated by Monte Carlo, whose U and k the result states"])
+
+    def test_differences_that_one_label_does_not_tell_apart(self):
+        text, _ = self.result('''[model.measurands]
+L = { formula = "z", unit = "mm" }
+[indications.z]
+components = [{ u = "1 um", per = "reading" }]
+rows = [
+{ rod = "1", setup = "a", values = ["21 mm"] },
+{ rod = "1", setup = "b", values = ["22 mm"] },
+{ rod = "2", setup = "a", values = ["31 mm"] },
+{ rod = "2", setup = "b", values = ["33 mm"] },
+]
+[analysis]
+comparisons = [{ measurand = "L", between = "rod", within = "setup" }, { measurand = "L", between = "setup" }]
+''')
+        self.assertIn("L: 1 - 2, setup a = -10.0000 mm", text)
+        for a, b, difference in (("rod 1, setup a", "rod 1, setup b", -1), ("rod 1, setup a", "rod 2, setup b", -12),
+                                 ("rod 1, setup b", "rod 2, setup a", -9), ("rod 2, setup a", "rod 2, setup b", -2)):
+            self.assertIn(f"L[{a}] - L[{b}] = {difference}.0000 mm", text)
+
+    def test_indices_of_what_has_no_variance(self):
+        text, _ = self.result('''[model.measurands]
+y = "x / z"
+[quantities]
+x = { value = 0, u = 1 }
+z = { value = 0.1, u = 2 }
+[analysis]
+sensitivity = { sobol = 4096, shapley = 2048 }
+''')
+        self.assertIn("note: y: no variance, of which Sobol' indices and Shapley effects are shares", text)
+        result = read.result(self.path / "s.h5")
+        self.assertEqual({i.total_verdict for i in result.sensitivities[0].rows}, {"not converged"})
+
+    def test_what_cancels_exactly_is_a_constant(self):
+        text, said = self.result('''[model.measurands]
+a = "x + y - 1.4142135623730951 * z"
+[quantities]
+x = { value = 0, u = 1 }
+y = { value = 0, u = 1 }
+z = { value = 0, u = 1 }
+[[correlations]]
+quantities = ["x", "y", "z"]
+kind = "pearson"
+matrix = [[1, 0, 0.7071067811865476], [0, 1, 0.7071067811865476], [0.7071067811865476, 0.7071067811865476, 1]]
+''')
+        self.assertEqual(said[0]["standard_uncertainty"], 0)
+
+    def test_a_temperature_in_degC_that_was_meant_as_a_difference(self):
+        quantities = '[quantities]\na = { value = "11.5 um/m/K" }\ndT = { value = "2 UNIT", u = "0.1 K" }\n'
+        head = '[model.measurands]\ny = { formula = "0.1 * a * dT", unit = "um/m" }\n'
+        text, _ = self.result(head + quantities.replace("UNIT", "degC"))
+        self.assertIn("note: y: proportional to dT, counted from 0 K; state a difference of temperatures in K", text)
+        text, _ = self.result(head + quantities.replace("UNIT", "K"))
+        self.assertNotIn("proportional", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
