@@ -189,6 +189,17 @@ void doubt_indices(Results& r) {
                                   fmt::join(names, ", ")));
 }
 
+/// What the readings of a fit leave themselves, beside samples of it.
+void note_residuals(Results& r) {
+  for (const FitCovariance& fit : r.fits)
+    for (const Budget& b : r.budgets)
+      if (b.output.name == fit.output.name && b.applicable)
+        r.notes.push_back(fmt::format("{}: that of the readings themselves is {}; its samples hold noise twice, that of "
+                                      "the readings and that which is drawn",
+                                      b.output.name,
+                                      with_suitable_unit(b.estimate, b.output.unit, b.output.si_unit)));
+}
+
 InputDraws input_draws(const propagation::Experiment& e) {
   InputDraws draws;
   for (const auto& variate : e.plan().variates) {
@@ -283,6 +294,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
   study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e, workers); });
   study(true, "joint regions", r.joint, [&] { return joint_regions(e, samples, r.summaries, r.budgets, threads); });
   study(true, "covariance of the fit", r.fits, [&] { return fit_covariances(e, samples); });
+  if (!virtual_experiment) note_residuals(r);
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
   study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries, threads); });
   study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.summaries, r.budgets, threads); });

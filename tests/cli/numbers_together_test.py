@@ -17,6 +17,13 @@ sys.path.insert(0, str(ROOT / "reports"))
 from gumshoe_report import read, workbook
 
 HEAD = 'schema = 1\n[model]\nname = "expression"\n'
+SPHERE = (  # centres of a sphere on a table that tilts about B and turns about C, made with noise of 3 um
+    (-269.7854, 287.4007, 469.695), (-350.5288, 274.1332, 469.7056), (-427.7462, 247.0402, 469.7016),
+    (-499.0895, 206.946, 469.6917), (-562.3816, 155.0934, 469.664), (-615.7071, 93.0146, 469.63),
+    (-657.4475, 22.6349, 469.5801), (-686.327, -53.9391, 469.5364), (-701.4753, -134.3524, 469.4741),
+    (-702.4307, -216.1744, 469.4064), (-781.0499, -217.04, 230.5657), (-752.1894, -216.5616, 353.4314),
+    (-702.428, -216.1752, 469.4102), (-633.2858, -215.9067, 574.991), (-546.859, -215.7581, 666.9525),
+    (-445.776, -215.7305, 742.5241), (-273.4902, -215.9224, 820.2347))
 
 
 class NumbersTogether(unittest.TestCase):
@@ -30,9 +37,9 @@ class NumbersTogether(unittest.TestCase):
         self.assertEqual(run.returncode, code, run.stderr)
         return run.stdout
 
-    def result(self, text, name="s", samples=20000):
+    def result(self, text, name="s", samples=20000, head=HEAD):
         """Text and JSON of a scenario."""
-        (self.path / f"{name}.toml").write_text(HEAD + text)
+        (self.path / f"{name}.toml").write_text(head + text)
         words = ("run", f"{name}.toml", "--out", f"{name}.h5", "--force", "--samples", samples)
         return self.run_command(*words), json.loads(self.run_command(*words, "--format", "json"))
 
@@ -139,6 +146,22 @@ sensitivity = { sobol = 4096, shapley = 2048 }
         self.assertIn("note: y: no variance, of which Sobol' indices and Shapley effects are shares", text)
         result = read.result(self.path / "s.h5")
         self.assertEqual({i.total_verdict for i in result.sensitivities[0].rows}, {"not converged"})
+
+    def test_the_residuals_of_the_readings_themselves(self):
+        """Samples of a fit's residuals hold the noise of the readings and that which is drawn."""
+        angles = [(0, 10 * k) for k in range(10)] + [(b, 90) for b in (-20, -10, 0, 10, 20, 30, 45)]
+        said = lambda values, unit="": json.dumps([f"{v}{unit}" if unit else v for v in values])
+        text, _ = self.result(f"""[conditions]
+B = {said([b for b, _ in angles], " deg")}
+C = {said([c for _, c in angles], " deg")}
+pattern = {said([1] * 10 + [2] * 7)}
+repeat = {said(range(17))}
+""" + "".join(f"""[indications.{axis}]
+readings = {said(values, " mm")}
+components = [{{ u = "3 um", per = "reading" }}]
+""" for axis, values in zip("XYZ", zip(*SPHERE))), samples=2000, head=HEAD.replace("expression", "sphere_calibration")
+            + 'evaluation = "joint"\n')
+        self.assertIn("residual_rms: that of the readings themselves is 2.6 um", text)  # by scipy 2.603 um
 
     def test_what_cancels_exactly_is_a_constant(self):
         text, said = self.result('''[model.measurands]
