@@ -40,6 +40,7 @@ private:
   /// Jacobian of data and priors.
   std::vector<double> stacked() const;
   double variance_factor(Estimate& out, std::size_t rank) const;
+  void beyond_priors(Estimate& out) const;
   void outlier(Estimate& out) const;
 
   const propagation::Experiment& experiment_;

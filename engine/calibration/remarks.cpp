@@ -48,6 +48,7 @@ void Fit::remarks(Estimate& out) const {
     }
   for (const Parameter& p : out.parameters)
     if (p.at_limit) out.notes.push_back(p.unknown.name + " is at a limit of its card");
+  beyond_priors(out);
   if (!out.noise_declared && !(out.degrees_of_freedom > 0))
     out.notes.push_back(
         "there are as many unknowns as readings and no declared noise: no standard uncertainties are given");
@@ -58,6 +59,23 @@ void Fit::remarks(Estimate& out) const {
   outlier(out);
 }
 
+/// Values that the distribution stated for them excludes.
+void Fit::beyond_priors(Estimate& out) const {
+  for (const Parameter& p : out.parameters) {
+    const Unknown& x = p.unknown;
+    if (!(x.prior_u > 0)) continue;
+    const quantities::Entry& entry = experiment_.scenario().quantities[x.quantity].entries[x.entry];
+    double low = entry.value, high = entry.value;
+    for (const quantities::Component& c : entry.components)
+      low += c.distribution.support_low(), high += c.distribution.support_high();
+    const auto shown = [&](double si) { return units::from_si(si, x.unit, x.si_unit); };
+    if (p.value < low || p.value > high)
+      out.notes.push_back(fmt::format("{} lies outside of what is stated for it, {:.6g} to {:.6g}{}: a prior counts by "
+                                      "its mean and standard uncertainty",
+                                      x.name, shown(low), shown(high), units::suffix(x.unit)));
+  }
+}
+
 /// The largest residual, if it stands out from the others' middle.
 void Fit::outlier(Estimate& out) const {
   std::vector<double> sizes;
@@ -65,8 +83,11 @@ void Fit::outlier(Estimate& out) const {
   if (sizes.size() < 5 || !defined()) return;
   const double scale = median_of(sizes) / 0.6744897501960817;
   const auto largest = std::max_element(sizes.begin(), sizes.end());
-  if (!(*largest > 8 * scale) || !(*largest > (out.noise_declared ? 5 : 0))) return;
+  if (!(scale > 0) || !(*largest > 8 * scale) || !(*largest > (out.noise_declared ? 5 : 0))) return;
   const Row& row = out.rows[static_cast<std::size_t>(largest - sizes.begin())];
+  const auto measured = [](const Row& r) { return std::fabs(r.measured); };
+  constexpr double rounding = 1e-12;
+  if (std::fabs(row.residual) <= rounding * measured(std::ranges::max(out.rows, {}, measured))) return;
   const auto& indication = experiment_.model().card->indications[row.indication];
   const std::string unit(indication.unit);
   out.notes.push_back(

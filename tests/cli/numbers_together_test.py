@@ -163,6 +163,25 @@ components = [{{ u = "3 um", per = "reading" }}]
             + 'evaluation = "joint"\n')
         self.assertIn("residual_rms: that of the readings themselves is 2.6 um", text)  # by scipy 2.603 um
 
+    def test_an_estimate_that_its_prior_excludes(self):
+        for start, said in ((0.9, True), (0.1, False)):
+            (self.path / "r.csv").write_text("x,y\n" + "".join(f"{x},{start + 0.5 * x}\n" for x in range(6)))
+            (self.path / "f.toml").write_text(HEAD + """[model.indications]
+y = "a + b * x"
+[quantities]
+a = { estimated = true, value = 0, distribution = "rectangular", half_width = 0.2 }
+b = { estimated = true, value = 1 }
+[data]
+file = "r.csv"
+conditions = { x = "x" }
+[indications.y]
+readings = "y"
+u = 0.01
+""")
+            text = self.run_command("estimate", "f.toml", "--scenario-out", "e.toml", "--force")
+            self.assertEqual("a lies outside of what is stated for it, -0.2 to 0.2" in text, said, text)
+            self.assertNotIn("stands out", text)  # residuals are rounding
+
     def test_what_cancels_exactly_is_a_constant(self):
         text, said = self.result('''[model.measurands]
 a = "x + y - 1.4142135623730951 * z"
