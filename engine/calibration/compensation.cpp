@@ -15,6 +15,17 @@
 #include "quantities/effect_of.h"
 
 namespace gumshoe::calibration {
+
+std::string whole_of(const std::string& name) {
+  const auto without_number = [](const std::string& text) {
+    const std::size_t end = text.find_last_not_of("0123456789");
+    const bool numbered = end != std::string::npos && end > 0 && end + 1 < text.size() && text[end] == '_';
+    return numbered ? text.substr(0, end) : text;
+  };
+  const std::string whole = without_number(name);
+  return without_number(whole) == whole ? name : whole;
+}
+
 namespace {
 
 using propagation::Experiment;
@@ -155,8 +166,13 @@ private:
   /// Effects of the catalogue and stated ones by effect, then the quantities asked for.
   std::vector<Source> sources() const {
     std::vector<Source> out;
+    std::set<std::string> met, names;
     const auto left_out = [&](const std::string& name) {
-      return std::ranges::find(request_.without, name) != request_.without.end();
+      const std::string whole = whole_of(name);
+      names.insert(whole);
+      for (const std::string& one : request_.without)
+        if (one == name || one == whole) return met.insert(one), true;
+      return false;
     };
     for (const effects::Active& active : e_.forward().active()) {
       const EffectCard& effect = *effects::cards()[active.effect];
@@ -171,6 +187,10 @@ private:
       const std::string name = quantities::effect_of(s_.quantities[q].name);
       if (!left_out(name)) out.push_back({name, {{q, 0}}});
     }
+    for (const std::string& name : request_.without)
+      if (!met.contains(name))
+        refuse(fmt::format("'{}' is not an effect that is compensated", name), "",
+               names.empty() ? "leave out --without" : fmt::format("use one of {}", fmt::join(names, ", ")));
     for (const std::string& name : request_.with) {
       const auto known = std::ranges::find(card_.quantities, name, [](const auto& q) { return std::string(q.name); });
       if (known == card_.quantities.end())

@@ -50,6 +50,9 @@ struct Compensation {
   bool coarse = false;
 };
 
+/// "shape_1" of its part "shape_1_18"; any other name as it is.
+std::string whole_of(const std::string& name);
+
 /// Errors of the effects with a size, at the positions of the scenario's readings: what the simulated indication loses
 /// when the sizes are at null; u by the law of propagation from the sizes' uncertainties and correlations. An effect
 /// that also depends on anything else (time, a temperature, a label) is left out. Throws InputError if nothing remains,

@@ -286,6 +286,8 @@ private:
 } // namespace
 
 const std::vector<CompensationFormat>& compensation_formats() {
+  static constexpr const char* negated =
+      "with 0.010 at one point the axis must move 0.010 in the positive direction there; else leave out --negate";
   static const std::vector<CompensationFormat> all{
       {"csv", "error, correction and u at every position and direction", "", {}},
       {"linuxcnc",
@@ -307,11 +309,13 @@ const std::vector<CompensationFormat>& compensation_formats() {
       {"isg",
        "volumetric table of ISG and Beckhoff: error E_XX of ISO 230-1, mean of both directions",
        "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate",
-       {"axis", "step", "resolution", "negate"}},
+       {"axis", "step", "resolution", "negate"},
+       negated},
       {"etalon",
        "exchange text of Etalon: error E_XX of ISO 230-1, mean of both directions",
        "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate",
-       {"axis", "step", "resolution", "negate"}}};
+       {"axis", "step", "resolution", "negate"},
+       negated}};
   return all;
 }
 

@@ -13,6 +13,7 @@ struct CompensationFormat {
   std::string meaning;                   ///< the sign of what is written, and what directions become
   std::string check;                     ///< one step that shows on the machine that the sign is right
   std::vector<std::string_view> options; ///< members of CompensationChoice that count: axis, step, reference, ...
+  std::string check_negated = {};        ///< the same with --negate
 };
 
 /// Every format there is.

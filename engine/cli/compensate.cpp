@@ -41,9 +41,8 @@ double positive(const std::string& option, const std::string& text, const std::s
 std::vector<std::string> together(const std::vector<std::string>& names) {
   std::vector<std::pair<std::string, int>> counted;
   for (const std::string& name : names) {
-    const std::size_t end = name.find_last_not_of("0123456789");
-    const bool numbered = end != std::string::npos && end + 1 < name.size() && name[end] == '_';
-    const std::string stem = numbered ? name.substr(0, end) : name;
+    const std::string stem = calibration::whole_of(name);
+    const bool numbered = stem != name;
     if (!counted.empty() && counted.back().first == stem && numbered)
       ++counted.back().second;
     else
@@ -109,7 +108,9 @@ ExitCode compensate(CompensateOptions o) {
   print_left(table, file.applied);
   const auto& formats = calibration::compensation_formats();
   const auto format = std::ranges::find(formats, o.choice.format, &calibration::CompensationFormat::name);
-  if (!format->check.empty()) std::cerr << fmt::format("prove the sign on the machine: {}\n", format->check);
+  if (!format->check.empty())
+    std::cerr << fmt::format("prove the sign on the machine: {}\n",
+                             o.choice.negate ? format->check_negated : format->check);
   if (!o.out.empty()) std::cerr << "written: " << o.out << '\n';
   return ExitCode::done;
 }

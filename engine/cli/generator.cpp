@@ -29,7 +29,8 @@ std::string generator_script() {
 
 ExitCode generate(const std::vector<std::string>& words) {
   const std::string script = generator_script();
-  std::vector<std::string> line{"python3", script};
+  constexpr const char* python = "/usr/bin/python3";
+  std::vector<std::string> line{python, script}; // the whole path: by its name it would look for another's modules
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> argv;
   for (std::string& word : line) argv.push_back(word.data());
@@ -38,7 +39,7 @@ ExitCode generate(const std::vector<std::string>& words) {
   const pid_t child = fork();
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    execv("/usr/bin/python3", argv.data());
+    execv(python, argv.data());
     _exit(127);
   }
   int status = 0;

@@ -1,5 +1,6 @@
 /// What --help adds to the options: examples and what an interruption does; `gumshoe man` and `gumshoe completion`, which
 /// follow from the same tables. Neither is listed by --help's table of commands.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -84,10 +85,24 @@ std::string words_of(const CLI::App& command) {
   return words;
 }
 
+/// "text json", the values of a command's option --format; empty: it has none.
+std::string formats_of(const CLI::App& command) {
+  const CLI::Option* format = command.get_option_no_throw("--format");
+  if (!format) return {};
+  const std::string type = format->get_type_name(); // "TEXT:{text,json}"
+  const auto begin = type.find('{'), end = type.find('}');
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  std::string words = type.substr(begin + 1, end - begin - 1);
+  std::ranges::replace(words, ',', ' ');
+  return words;
+}
+
 /// For bash: commands, then the options of the command, then files. zsh takes it through bashcompinit.
 void print_completion(CLI::App& app) {
-  std::string names, cases;
+  std::string names, formats, cases;
   for (CLI::App* command : listed(app)) {
+    if (const std::string words = formats_of(*command); !words.empty())
+      formats += fmt::format("      {}) options=\"{}\" ;;\n", command->get_name(), words);
     names += (names.empty() ? "" : " ") + command->get_name();
     cases += fmt::format("    {}) options=\"{}\" ;;\n", command->get_name(), words_of(*command));
   }
@@ -100,18 +115,20 @@ _gumshoe() {{
     return
   fi
   case "${{COMP_WORDS[COMP_CWORD-1]}}" in
-    --format) COMPREPLY=($(compgen -W "text csv json" -- "$word")); return ;;
+    --format) case "${{COMP_WORDS[1]}}" in
+{}    esac
+    COMPREPLY=($(compgen -W "$options" -- "$word")); return ;;
   esac
   case "${{COMP_WORDS[1]}}" in
 {}  esac
   case "$word" in
     -*) COMPREPLY=($(compgen -W "$options" -- "$word")) ;;
-    *) COMPREPLY=($(compgen -f -- "$word")) ;;
+    *) local IFS=$'\n'; COMPREPLY=($(compgen -f -- "$word")) ;;
   esac
 }}
 complete -o filenames -F _gumshoe gumshoe
 )",
-                           names, cases);
+                           names, formats, cases);
 }
 
 void add_printer(CLI::App& app, Action& action, const char* name, const char* meaning, void (*print)(CLI::App&)) {

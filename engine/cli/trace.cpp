@@ -5,11 +5,13 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <malloc.h>
 #include <nlohmann/json.hpp>
 
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/generator.h"
@@ -56,6 +58,10 @@ Outputs claimed_outputs(const TraceOptions& o, const scenario::Scenario& s) {
     if (path == scenario)
       throw OutputError(path + ": the traced scenario is written to this file",
                         "two outputs cannot have the same name");
+  std::set<std::string> names;
+  for (const std::string& path : {out, o.json, o.report, o.history})
+    if (!path.empty() && !names.insert(std::filesystem::absolute(path).lexically_normal().string()).second)
+      throw OutputError(path + ": two outputs are written to this file", "two outputs cannot have the same name");
   const auto text = [&](const std::string& path, const char* command) {
     return path.empty() ? store::Claim() : store::claim_text(path, store::origin_of(s, command, o.force));
   };
@@ -122,11 +128,16 @@ ExitCode trace(const TraceOptions& o) {
     written.push_back(o.json);
   }
   draft.publish();
+  when_interrupted("The result is written, its report is not: gumshoe report makes it.");
   ExitCode code = ExitCode::done;
   if (!o.report.empty()) {
     { const store::Claim done = std::move(outputs.report); } // the generator claims it
     code = generate({out, "--out", o.report, "--page-only", "--force"});
-    if (code == ExitCode::done) written.push_back(o.report);
+    if (code == ExitCode::done)
+      written.push_back(o.report);
+    else
+      std::cerr << fmt::format("the result is written, its report is not: gumshoe report {} --out {} makes it\n", out,
+                               o.report);
   }
   if (o.format == "json")
     std::cout << verdict;

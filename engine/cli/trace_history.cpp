@@ -22,14 +22,28 @@ double shown(double si, const tracing::ScoredSize& s) {
   return units::from_si(si, s.unit, s.si_unit, units::Kind::difference);
 }
 
-/// What was read, in which order and under which conditions.
-std::string id_of(const std::vector<quantities::Reading>& readings) {
-  std::vector<double> values;
+using Rows = std::vector<std::vector<double>>;
+
+/// What was read, and under which conditions.
+Rows rows_of(const std::vector<quantities::Reading>& readings) {
+  Rows rows;
   for (const auto& r : readings) {
-    values.insert(values.end(), r.indications.begin(), r.indications.end());
-    values.insert(values.end(), r.conditions.begin(), r.conditions.end());
+    rows.push_back(r.indications);
+    rows.back().insert(rows.back().end(), r.conditions.begin(), r.conditions.end());
   }
+  return rows;
+}
+
+std::string id_of(const Rows& rows) {
+  std::vector<double> values;
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
   return fmt::format("{:016x}", digest64(values.data(), values.size()));
+}
+
+/// The same readings in any order are the same readings.
+std::string id_in_any_order(Rows rows) {
+  std::ranges::sort(rows);
+  return id_of(rows);
 }
 
 /// What a model that a scenario describes says of itself, one in a line: two such models may share a name.
@@ -87,13 +101,14 @@ std::string sizes_of(const tracing::EffectEvidence& e) {
 } // namespace
 
 History::History(const std::string& path, const scenario::Scenario& s, const ModelCard& card)
-    : path_(path), id_(id_of(s.readings)), model_(s.model), model_title_(card.title),
+    : path_(path), id_(id_in_any_order(rows_of(s.readings))), model_(s.model), model_title_(card.title),
       model_equations_(equations_of(s, card)) {
   if (path.empty()) return;
   claim_ = store::Claim(path);
   campaigns_ = store::read_history(claim_.target());
   require_same_model();
-  if (std::ranges::find(campaigns_, id_, &tracing::Campaign::id) != campaigns_.end())
+  const std::string in_order = id_of(rows_of(s.readings)); // as histories of earlier versions have it
+  if (std::ranges::any_of(campaigns_, [&](const tracing::Campaign& c) { return c.id == id_ || c.id == in_order; }))
     throw InputError(path + ": it holds these readings already", "evidence that is counted twice is no evidence",
                      "append each campaign once");
 }
@@ -135,9 +150,10 @@ std::string History::text(double alpha) const {
                        "stated ([stated_effects])\n",
                        path_, evidence_.campaigns, evidence_.campaigns == 1 ? "" : "s");
   std::string out =
-      fmt::format("evidence over {} campaign{} in {}, valid whenever one looks, the search for {} effects allowed for "
-                  "(shown at {:.0f} to 1):\n",
-                  evidence_.campaigns, evidence_.campaigns == 1 ? "" : "s", path_, evidence_.effects.size(), 1 / alpha);
+      fmt::format("evidence over {} campaign{} in {}, valid whenever one looks, the search for {} effect{} allowed for "
+                  "(shown at {:.0f} to 1); sizes as if each effect were the only one:\n",
+                  evidence_.campaigns, evidence_.campaigns == 1 ? "" : "s", path_, evidence_.effects.size(),
+                  evidence_.effects.size() == 1 ? "" : "s", 1 / alpha);
   for (std::size_t i = 0; i < std::min(most_effects, evidence_.effects.size()); ++i) {
     const auto& e = evidence_.effects[i];
     out +=

@@ -1,6 +1,7 @@
 #include "scenario/choose_time.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -44,10 +45,27 @@ public:
     std::vector<std::shared_ptr<const TimeModel>> out(model_.evaluations.size());
     for (std::size_t e = 0; e < out.size(); ++e)
       if (asked[e] && problems_.size() == before) out[e] = of_evaluation(model_.evaluations[e]);
+    if (problems_.size() == before) refuse_unused();
     return out;
   }
 
 private:
+  bool is_used(const std::string& name) const {
+    const auto in_name = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80); };
+    for (std::size_t at = texts_.find(name); at != std::string::npos; at = texts_.find(name, at + 1))
+      if ((at == 0 || !in_name(texts_[at - 1])) && !in_name(texts_[at + name.size()])) return true;
+    return false;
+  }
+
+  /// A constant that no formula uses is misspelled.
+  void refuse_unused() {
+    if (!table_) return;
+    for (const Member& m : table_->members())
+      if (m.key != "per_reading" && m.key != "once" && !is_used(m.key))
+        problems_.add(m, fmt::format("choose.time.{}: no formula of the time uses it", m.key), "",
+                      did_you_mean(m.key, names_of(model_.timing)));
+  }
+
   /// A formula as text, and where it stands; from the card: nowhere.
   struct Written {
     std::string text;
@@ -120,6 +138,7 @@ private:
     const auto add = [&](const char* name, Written formula, std::string_view from_card) {
       if (formula.text.empty()) formula.text = from_card;
       if (formula.text.empty()) return -1;
+      texts_ += formula.text + '\n';
       formula::Stated stated;
       stated.formula.name = std::string("choose.time.") + name;
       stated.formula.text = formula.text;
@@ -170,6 +189,7 @@ private:
   std::vector<Symbol> symbols_;
   std::vector<std::size_t> named_;
   std::vector<double> constants_;
+  std::string texts_; ///< of all formulas, each with an end of its line
 };
 
 Shape time_shape() {

@@ -27,6 +27,8 @@ std::recursive_mutex& library() {
     return true;
   }();
   (void)quiet;
+  thread_local const bool quiet_here = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0; // a setting of each thread
+  (void)quiet_here;
   return mutex;
 }
 

@@ -232,7 +232,7 @@ struct Criteria {
   double overstated_surely = 3, outweighs = 10;
   /// Growth at which a drift is vetoed beyond its end, too: one that levels off there leaves at most about its range,
   /// of which a constant leaves half; curves that cancel only where they were fitted leave any multiple.
-  double astray = 4;
+  double astray = 2;
   double insensitive = 1e-9;     ///< share of a signature in the hold-out blocks below which they cannot judge it
   std::size_t noise_draws = 199; ///< data sets of pure noise that "noise alone" is computed from
   /// A shape parameter is a size where its u is below this share of it, and has a distribution in the traced scenario

@@ -194,6 +194,7 @@ class Choose(InFolder):
             "a time that is a length": ("way / feed + retract", "way", "per_reading", "the formula gives a length"),
             "sum of unlike": ("way / feed + retract", "way + retract", "per_reading", "a length"),
             "unknown name in the time": ("way / feed + retract", "way / fed + retract", "per_reading", "'fed'"),
+            "misspelt constant": ('start = "5 s"', 'start = "5 s"\nretrct = "5 s"', 'retrct = "5 s"', "no formula of the time uses it"),
             "a constant that has a meaning": ('start = "5 s"', 'start = "5 s"\ndelay = "5 s"', 'delay = "5 s"',
                                               "already has a meaning"),
             "not a virtual experiment": ('method = "virtual_experiment"\n', "", None, None),

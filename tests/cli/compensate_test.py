@@ -295,6 +295,19 @@ class BothDirections(Compensation):
         plain, negated = self.table("isg"), self.table("isg", "--negate")
         for a, b in zip(plain, negated, strict=True):
             self.assertEqual(a[1], -b[1])
+        said = self.compensate("--format", "isg", "--negate").stderr
+        self.assertIn("must move 0.010 in the positive direction there; else leave out --negate", said)
+
+    def test_an_effect_is_left_out_by_the_name_that_is_told(self):
+        holds = re.search(r"^holds: (.*)$", self.compensate().stderr, re.M)[1]
+        names = [one.split(" (")[0] for one in holds.split(", ")]
+        for name in names:
+            run = self.compensate("--without", name)
+            self.assertNotIn(name, re.findall(r"^holds: (.*)$", run.stderr, re.M), run.stderr)
+            self.assertNotEqual(run.stdout, self.compensate().stdout)
+        run = self.compensate("--without", "nothing_of_the_kind")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn(f"'nothing_of_the_kind' is not an effect that is compensated. Use one of {', '.join(sorted(names))}", run.stderr)
 
 
 class OneTable(Compensation):

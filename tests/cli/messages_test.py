@@ -294,6 +294,24 @@ class Messages(InFolder):
         self.refused(text + '[quantities]\nrod_length = { value = "100 mm", estimated = true }\n', ["estimate", "S"],
                      "5001 readings share draws of their noise")
 
+    def test_two_outputs_of_one_name(self):
+        for words in (("--json", "x.json", "--report", "x.json"), ("--out", "x.h5", "--append", "x.h5"),
+                      ("--out", "x.h5", "--json", "./x.h5")):
+            run = gumshoe("trace", ROOT / "scenarios/trace_load_cell.toml", *words, cwd=self.file.parent)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(": two outputs are written to this file (two outputs cannot have the same name)", run.stderr)
+
+    def test_a_report_is_made_in_an_active_python_environment(self):
+        """Its python3 comes first in PATH and has no packages; the generator's is /usr/bin/python3."""
+        folder = self.file.parent
+        (folder / "venv/bin").mkdir(parents=True)
+        (folder / "venv/pyvenv.cfg").write_text("home = /usr/bin\ninclude-system-site-packages = false\n")
+        (folder / "venv/bin/python3").symlink_to("/usr/bin/python3")
+        self.file.write_text(SCENARIO)
+        self.assertEqual(gumshoe("run", self.file, "--samples", 1000, "--out", folder / "r.h5").returncode, 0)
+        run = gumshoe("report", folder / "r.h5", env={**os.environ, "PATH": f"{folder / 'venv/bin'}:/usr/bin:/bin"})
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_what_the_program_needs_and_does_not_find(self):
         self.file.write_text(SCENARIO.replace('"5 mm"', '"0.2 inch"'))  # common units need no database
         result, reports = self.file.parent / "r.h5", self.file.parent / "reports"

@@ -295,12 +295,13 @@ sensitivity = { sobol = 256, by = "quantity" }
         test = '[[analysis.conformity]]\nmeasurand = "y"\nlower = "149.98 mm"\nupper = "150.02 mm"\n'
         u = math.sqrt(55) / 1000
         inside = math.erf(0.02 / u / math.sqrt(2))
-        for rule, width in (("simple_acceptance", 0), ("iso_14253_1", 1.65 * u), ("ilac_g8", 1.96 * u)):
+        for rule, said, width in (("simple_acceptance", "simple acceptance", 0), ("iso_14253_1", "ISO 14253-1", 1.65 * u),
+                                  ("ilac_g8", "ILAC-G8", 1.96 * u)):
             text = self.run_text(SUM + test + f'rule = "{rule}"\n')
             found = re.search(r"conformity of y: accepted, conformance probability (\S+) %.*\n  tolerance from 149.9800? mm to 150.0200? mm, "
-                              r"acceptance from (\S+) mm to (\S+) mm, .*decision rule (\w+), guard band w = (\S+)( um| mm|)", text)
+                              r"acceptance from (\S+) mm to (\S+) mm, .*decision rule ([^,]+), guard band w = (\S+)( um| mm|)", text)
             self.assertIsNotNone(found, text)
-            self.assertEqual(found[4], rule)
+            self.assertEqual(found[4], said)
             self.assertAlmostEqual(float(found[1]), 100 * inside, delta=0.1)
             self.assertAlmostEqual(float(found[2]), 149.98 + width, delta=2e-4)
         wide = test.replace("149.98", "149").replace("150.02", "151")

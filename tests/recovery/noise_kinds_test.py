@@ -93,6 +93,17 @@ class CoarseDisplay(Noise):
             self.assertGreater(found["noise"]["scale"], 0.74 / 2, seed)
             self.assertLess(found["noise"]["scale"], 0.74 * 2, seed)
 
+    def test_a_few_readings_off_by_one_step_make_no_block_differ(self):
+        """Five of a hundred are off: in which cycles is chance. Of thirty such sets a third had a block that differed."""
+        x = np.tile(np.concatenate([np.arange(0, 801, 100), np.arange(800, -1, -100)]), 6)
+        n = len(x)
+        for spread, seeds in ((0.25, range(12)), (0.35, range(6))):
+            for seed in seeds:
+                rng = np.random.default_rng([5, seed])
+                d = np.rint(3 + spread * rng.standard_normal(n))
+                self.write(AXIS, run=np.arange(n) // 18 + 1, direction=np.where(np.arange(n) % 18 < 9, 1, -1), x=x, t=20 * np.arange(n), d=d)
+                self.assertEqual(self.trace("s.toml")["anomalous_blocks"], [], (spread, seed))
+
 
 class MoreNoiseThanDeclared(Noise):
     """A display of 1 um is all that is declared of readings that scatter by 1.04 um, and a reversal of +-3 um is not."""

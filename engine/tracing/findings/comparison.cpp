@@ -48,7 +48,7 @@ public:
     // Scatter is declared from now on, with the size that the traced scenario states: what is an outlier, and how large
     // the noise is, are judged given its draws, as a trace of that scenario does. The verdict knows only what was
     // found.
-    const FittedScatter scatter = s.findings.empty() ? FittedScatter{} : fitted_scatter(c, s.found, s.findings);
+    const FittedScatter scatter = fitted_scatter(c, s.found, s.findings);
     for (const bool all : {false, true}) {
       std::vector<MoreNoise> declared;
       for (const SearchFinding& f : s.findings)
@@ -170,8 +170,9 @@ private:
     const Scores clean_before = predict(base_, base_.residual - bad, blocks);
     Scores clean_after = predict(after_, after_.residual - bad, blocks);
     const Scores judged = verdict(judged_, bad, blocks);
-    const bool refused = (judge(blocks, verdict(before_, bad, blocks), judged) || last_spoils(blocks, bad, judged)) &&
-                         !confirmed_between_blocks();
+    const bool rejected = judge(blocks, verdict(before_, bad, blocks), judged) || last_spoils(blocks, bad, judged),
+               refused = rejected && !confirmed_between_blocks();
+    if (rejected && !refused) out_.unconfirmed = true; // of readings to come nothing is known
     if (refused) {
       scored_after_ = scored_before_;
       clean_after = clean_before;
@@ -289,8 +290,8 @@ private:
     const bool rejected = !before.scored() || !(before.whitened - after.whitened > criteria.beyond_doubt);
     out_.statements.push_back(fmt::format(
         "the hold-out blocks lie beyond the {} of the training data, to which what was found does not extend; blocks "
-        "between the first and the last, each predicted from all others, {} it",
-        fmt::join(names, " and "), rejected ? "do not confirm" : "confirm"));
+        "between the first and the last, each predicted from all others, {}",
+        fmt::join(names, " and "), rejected ? "do not confirm it" : "confirm it there, not beyond"));
     return !rejected;
   }
 

@@ -83,7 +83,9 @@ private:
 /// the next one, and so takes nothing from what does.
 class RepeatStatistics {
 public:
-  RepeatStatistics(const Repeats* repeats, const Vector& residuals) : repeats_(repeats), observed_(of(residuals)) {}
+  RepeatStatistics(const Repeats* repeats, const Vector& residuals) : repeats_(repeats), observed_(of(residuals)) {
+    if (repeats_ && repeats_->blocks > 0) leave_out_steps(residuals);
+  }
   /// Takes some of the draws, from set `first` on.
   void take(const Matrix& draws, Index first, Index sets) {
     drawn_.conservativeResize(observed_.rows(), sets);
@@ -93,8 +95,7 @@ public:
   double p_lack_of_fit() const { return tests_fit() ? nulls_[0].p(observed_(0, 0)) : 1; }
   std::vector<double> p_blocks() const {
     std::vector<double> out;
-    for (std::size_t j = tests_fit() ? 1 : 0; j < nulls_.size(); ++j)
-      out.push_back(nulls_[j].p(observed_(index(j), 0)));
+    for (Index j = first_block(); j < index(nulls_.size()); ++j) out.push_back(nulls_[index(j)].p(observed_(j, 0)));
     return out;
   }
   double least() const { return least_p(nulls_, observed_, 0); }
@@ -102,15 +103,23 @@ public:
 
 private:
   bool tests_fit() const { return repeats_ && repeats_->pure.known(); }
+  Index first_block() const { return tests_fit() ? 1 : 0; }
+  BlockSpread spread(const Matrix& residuals) const {
+    return block_spread(repeats_->pure.about_cells(residuals), repeats_->block, repeats_->blocks);
+  }
+  /// Of readings that mostly agree to the last digit a few are off by one step: where these are is chance, which draws
+  /// of a smooth noise do not have.
+  void leave_out_steps(const Matrix& residuals) {
+    const Matrix typical = spread(residuals).typical;
+    for (Index b = 0; b < typical.rows(); ++b)
+      if (typical(b, 0) <= repeats_->step) observed_(first_block() + b, 0) = 0;
+  }
   /// Rows: lack of fit if it is tested, then blocks.
   Matrix of(const Matrix& residuals) const {
     if (!repeats_) return Matrix(0, residuals.cols());
-    const Index first = tests_fit() ? 1 : 0;
-    Matrix out(first + index(repeats_->blocks), residuals.cols());
-    if (first > 0) out.row(0) = repeats_->pure.lack_of_fit(residuals).transpose();
-    if (repeats_->blocks > 0)
-      out.bottomRows(index(repeats_->blocks)) =
-          block_spread(repeats_->pure.about_cells(residuals), repeats_->block, repeats_->blocks).statistic;
+    Matrix out(first_block() + index(repeats_->blocks), residuals.cols());
+    if (tests_fit()) out.row(0) = repeats_->pure.lack_of_fit(residuals).transpose();
+    if (repeats_->blocks > 0) out.bottomRows(index(repeats_->blocks)) = spread(residuals).statistic;
     return out;
   }
 

@@ -44,6 +44,7 @@ struct Repeats {
   PureError pure;                 ///< not known: lack of fit is not tested
   std::vector<std::size_t> block; ///< by row of the scan; empty: no blocks
   std::size_t blocks = 0;
+  double step = 0; ///< in which readings were recorded, in units of the design's noise; 0: not known
 };
 
 /// Assesses one data set (residuals of the scan's rows, SI) against 2 x `draws` sets of the fitted noise.

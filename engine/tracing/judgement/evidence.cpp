@@ -133,7 +133,8 @@ std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? 
 Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
   Repeats out{PureError(fit.design, c.fitter.rows(), c.fitter.replicates(), c.threads),
               {},
-              c.observations.blocks.groups.size()};
+              c.observations.blocks.groups.size(),
+              std::sqrt(12.0) * least_scale(fit.design, c.fitter.rows())};
   if (out.blocks < criteria.blocks_for_folds) out.blocks = 0;
   for (const Index row : c.fitter.rows())
     if (out.blocks > 0) out.block.push_back(c.observations.blocks.group[fit.design.reading[index(row)]]);

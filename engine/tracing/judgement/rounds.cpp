@@ -267,6 +267,7 @@ private:
       if (evidence_->score(a) < evidence_->score(shape) - criteria.equal_merit) break;
       const Trial one = evidence_->trial(a);
       if (!one.fit.valid || one.implausible || at_a_limit(one.fit.terms.back()) ||
+          std::min(one.ratio, evidence_->assessment().data.ratio(index(a), 0)) < criteria.decisive ||
           one.score < score_of_shape - criteria.equal_merit || sizes(candidate(a)) > sizes(candidate(shape)) ||
           evidence_->gain_beside(a, shape) > evidence_->limit(shape) || !evidence_->predicts_better(one.fit))
         continue;

@@ -15,6 +15,7 @@ Search without_findings(const TraceContext& c, Search search) {
   search.found = search.base;
   c.fitter.widen_jumping(search.found);
   search.findings.clear();
+  search.stages.clear();
   search.last = search.first;
   return search;
 }
