@@ -5,7 +5,8 @@
 namespace gumshoe {
 
 /// Throws std::bad_alloc unless so many bytes can be allocated now; keeps none. Called before libraries that end the
-/// process where they get no memory (udunits2's parser, HDF5's cache of a file, the JSON library's destructors).
+/// process where they get no memory (udunits2's parser, toml++'s errors, HDF5's cache of a file, the JSON library's
+/// destructors).
 void require_memory(std::size_t bytes);
 
 /// Lets the heap begin with large pages: the first touch of a small one costs as much as copying several. Larger blocks

@@ -24,6 +24,7 @@ constexpr void expect(bool holds) {
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "scenario/document.h"
 
 namespace gumshoe::scenario {
@@ -144,6 +145,8 @@ private:
 
 Node parse_document(const std::string& text, const std::string& file) {
   Depth(text, file).check();
+  require_memory((std::size_t{1} << 20) +
+                 32 * text.size()); // the parser makes an error of a failure, which ends the process
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
