@@ -37,6 +37,21 @@ draws = 199
 columns.t = { column = "t", unit = "s" }
 """
 
+MACHINE_AXIS = """schema = 1
+title = "an axis of a machine, with a display of 1 um"
+[model]
+name = "linear_axis"
+[quantities]
+offset = { estimated = true, value = "0 um" }
+gain = { estimated = true, value = "0 um/m" }
+[indications.deviation]
+readings = { file = "r.csv", column = "d", unit = "um", labels = { run = "run" }, conditions = { position = { column = "x", unit = "mm" }, direction = { column = "direction" }, time = { column = "t", unit = "s" } } }
+[trace]
+blocks = "run"
+order = "time"
+draws = 199
+"""
+
 METER = """schema = 1
 title = "a flow meter against a reference"
 [model]
@@ -92,6 +107,20 @@ class CoarseDisplay(Noise):
             # 88 readings: the number of those that are off by 1 um scatters by a third, the noise by a sixth.
             self.assertGreater(found["noise"]["scale"], 0.74 / 2, seed)
             self.assertLess(found["noise"]["scale"], 0.74 * 2, seed)
+
+    def test_an_effect_that_is_named_is_known_to_differ_from_zero(self):
+        """Noise of half a step, and nothing else. With the effect other readings are winsorised: its likelihood ratio is 10.5,
+        and its size 1.7 standard uncertainties."""
+        read = ("333232322333433444", "333333313343343332", "222333334334334333", "244233344332342322", "333324333343324342",
+                "434232443333344333")
+        x = np.tile(np.concatenate([np.arange(0, 801, 100), np.arange(800, -1, -100)]), 6)
+        n = len(x)
+        start = np.repeat([0, 866.1, 1190.5, 8656, 8990, 9328.1], 18)
+        self.write(MACHINE_AXIS, run=np.arange(n) // 18 + 1, direction=np.where(np.arange(n) % 18 < 9, 1, -1), x=x,
+                   t=start + 15 * (np.arange(n) % 18), d=list("".join(read)))
+        for finding in self.trace("s.toml")["findings"]:
+            for size in finding["quantities"]:
+                self.assertGreater(abs(size["value"]), 1.96 * size["u"], finding)
 
     def test_a_few_readings_off_by_one_step_make_no_block_differ(self):
         """Five of a hundred are off: in which cycles is chance. Of thirty such sets a third had a block that differed."""

@@ -266,8 +266,7 @@ private:
          evidence_->best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_refitted)) {
       if (evidence_->score(a) < evidence_->score(shape) - criteria.equal_merit) break;
       const Trial one = evidence_->trial(a);
-      if (!one.fit.valid || one.implausible || at_a_limit(one.fit.terms.back()) ||
-          std::min(one.ratio, evidence_->assessment().data.ratio(index(a), 0)) < criteria.decisive ||
+      if (!one.fit.valid || one.implausible || at_a_limit(one.fit.terms.back()) || !is_significant(one.fit) ||
           one.score < score_of_shape - criteria.equal_merit || sizes(candidate(a)) > sizes(candidate(shape)) ||
           evidence_->gain_beside(a, shape) > evidence_->limit(shape) || !evidence_->predicts_better(one.fit))
         continue;

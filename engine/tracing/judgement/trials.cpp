@@ -11,6 +11,14 @@
 
 namespace gumshoe::tracing {
 
+bool is_significant(const JointFit& fit) {
+  const std::size_t last = fit.terms.size() - 1;
+  const Term& term = fit.terms[last];
+  if (!term.candidate.start.empty()) return true;
+  const Vector u = uncertainties(fit, last);
+  return (term.size.array().square() > criteria.decisive * u.array().square()).any();
+}
+
 std::vector<Trial> physical_trials(const Evidence& evidence, std::vector<Trial>& denied) {
   // What only one rod or one tool has asks for more: it must lead what all have.
   auto physical =
@@ -30,7 +38,7 @@ std::vector<Trial> physical_trials(const Evidence& evidence, std::vector<Trial>&
     return passes(assessment.p[t.candidate], assessment.threshold, t.ratio, evidence.limit(t.candidate));
   };
   const auto counts = [&](const Trial& t) {
-    return passes_by_signature(t) && still_counts(t.ratio, evidence.limit(t.candidate));
+    return passes_by_signature(t) && still_counts(t.ratio, evidence.limit(t.candidate)) && is_significant(t.fit);
   };
   std::ranges::sort(out, std::ranges::greater{}, &Trial::worth);
   const auto best = std::ranges::find_if(out, counts);

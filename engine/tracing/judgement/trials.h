@@ -4,6 +4,11 @@
 
 namespace gumshoe::tracing {
 
+/// Whether some size of the fit's last term is significant by its own standard uncertainty (criteria.decisive). The
+/// likelihood ratio alone may say more than the size, where the fit with the term winsorises other readings. True where
+/// readings jump with the sizes: their tangents tell no uncertainty.
+bool is_significant(const JointFit& fit);
+
 /// Effects and declared quantities that could win. The first passes by itself; the others may be members of its class.
 /// Empty: none passes.
 /// @param denied  gets those before the first that pass by their signatures, but explain little by the whole model: the
