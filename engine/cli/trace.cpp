@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -54,14 +53,6 @@ Outputs claimed_outputs(const TraceOptions& o, const scenario::Scenario& s) {
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".traced.h5");
   const std::filesystem::path name = std::filesystem::path(o.file).stem();
   const std::string scenario = (std::filesystem::path(out).parent_path() / name).string() + ".traced.toml";
-  for (const std::string& path : {out, o.json, o.report})
-    if (path == scenario)
-      throw OutputError(path + ": the traced scenario is written to this file",
-                        "two outputs cannot have the same name");
-  std::set<std::string> names;
-  for (const std::string& path : {out, o.json, o.report, o.history})
-    if (!path.empty() && !names.insert(std::filesystem::absolute(path).lexically_normal().string()).second)
-      throw OutputError(path + ": two outputs are written to this file", "two outputs cannot have the same name");
   const auto text = [&](const std::string& path, const char* command) {
     return path.empty() ? store::Claim() : store::claim_text(path, store::origin_of(s, command, o.force));
   };
@@ -128,9 +119,9 @@ ExitCode trace(const TraceOptions& o) {
     written.push_back(o.json);
   }
   draft.publish();
-  when_interrupted("The result is written, its report is not: gumshoe report makes it.");
   ExitCode code = ExitCode::done;
   if (!o.report.empty()) {
+    when_interrupted("The result is written, its report is not: gumshoe report makes it.");
     { const store::Claim done = std::move(outputs.report); } // the generator claims it
     code = generate({out, "--out", o.report, "--page-only", "--force"});
     if (code == ExitCode::done)

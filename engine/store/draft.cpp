@@ -103,13 +103,16 @@ Claim::Claim(const std::string& path) : path_(path) {
     const std::string name = target_ + lock_ending;
     lock_ = LockedFile(name, false);
     const char* wait = "wait until it has finished, or choose another name";
+    const std::string self = "process " + std::to_string(getpid());
     if (!lock_) {
       std::string holder;
       std::getline(std::ifstream(name), holder);
+      if (holder == self)
+        throw OutputError("two outputs of this command would be written to it", "", "choose two names");
       throw OutputError("another process is writing this file", holder, wait);
     }
-    const std::string self = "process " + std::to_string(getpid()) + '\n';
-    if (ftruncate(lock_.number(), 0) != 0 || pwrite(lock_.number(), self.data(), self.size(), 0) < 0) {
+    const std::string line = self + '\n';
+    if (ftruncate(lock_.number(), 0) != 0 || pwrite(lock_.number(), line.data(), line.size(), 0) < 0) {
     } // a full disk: the lock holds without the name
     if (open_elsewhere(target_)) {
       unlink(name.c_str());

@@ -299,7 +299,7 @@ class Messages(InFolder):
                       ("--out", "x.h5", "--json", "./x.h5")):
             run = gumshoe("trace", ROOT / "scenarios/trace_load_cell.toml", *words, cwd=self.file.parent)
             self.assertEqual(run.returncode, 2)
-            self.assertIn(": two outputs are written to this file (two outputs cannot have the same name)", run.stderr)
+            self.assertIn(": two outputs of this command would be written to it. Choose two names.", run.stderr)
 
     def test_a_report_is_made_in_an_active_python_environment(self):
         """Its python3 comes first in PATH and has no packages; the generator's is /usr/bin/python3."""
@@ -334,7 +334,7 @@ class Messages(InFolder):
     def test_traced_scenario_of_another(self):
         self.file.write_text(ROWS)
         traced = self.file.parent / "s.traced.toml"
-        for report, content, words in [("page.html", "mine", "was not written by gumshoe"), (traced.name, None, "the traced scenario")]:
+        for report, content, words in [("page.html", "mine", "was not written by gumshoe"), (traced.name, None, "two outputs of this command would be written to it")]:
             if content:
                 traced.write_text(content)
             run = gumshoe("trace", self.file, "--out", self.file.parent / "r.h5", "--report", self.file.parent / report)

@@ -232,7 +232,7 @@ TEST_CASE("one process writes a file at a time", "[store][errors]") {
   const std::string path = folder / "run.h5";
   {
     const ResultFile first(path, identity(), outputs, labels);
-    CHECK(message(path, identity()).find("another process is writing this file") != std::string::npos);
+    CHECK(message(path, identity()).find("two outputs of this command would be written to it") != std::string::npos);
   }
   CHECK(message(path, identity()).empty());
 }
