@@ -48,9 +48,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
       s.warning.substr(std::min(s.warning.size(), s.warning.find(said_before) == s.warning.npos
                                                       ? std::size_t{0}
                                                       : s.warning.find(said_before) + said_before.size()));
-  // An error is a difference of two heights: it converts by scale.
-  std::string text = fmt::format("{} = {}{}", s.output.name,
-                                 fixed(virtual_experiment ? width(s.estimate) : shown(s.estimate), d), unit);
+  std::string text = fmt::format("{} = {}{}", s.output.name, fixed(shown(s.estimate), d), unit);
   if (s.estimate_is_median) text += " (the median, because the mean does not settle)";
   if (std::isfinite(s.standard_uncertainty))
     text += fmt::format("{} u = {}{}",
@@ -168,36 +166,36 @@ void add_monte_carlo_column(Results& r) {
   }
 }
 
-/// Indices are shares of a variance: of an output without one they say nothing.
+/// Marks the indices of outputs without a variance as not converged: they are shares of it.
 void doubt_indices(Results& r) {
   const std::string unknown(verdict(nan, nan));
   std::vector<std::string> names;
   for (std::size_t o = 0; o < r.summaries.size(); ++o) {
     if (std::isfinite(r.summaries[o].standard_uncertainty)) continue;
-    const bool sobol = o < r.sensitivities.size(), shapley = o < r.shapley.size();
-    if (sobol)
+    if (o < r.sensitivities.size()) {
       for (SobolIndex& i : r.sensitivities[o].indices) i.first_verdict = i.total_verdict = unknown;
-    if (sobol)
       for (SobolPair& pair : r.sensitivities[o].pairs) pair.verdict = unknown;
-    if (shapley)
+    }
+    if (o < r.shapley.size())
       for (Index& i : r.shapley[o].effects) i.verdict = unknown;
-    if (sobol || shapley) names.push_back(r.summaries[o].output.name);
+    if (o < std::max(r.sensitivities.size(), r.shapley.size())) names.push_back(r.summaries[o].output.name);
   }
   if (!names.empty())
-    r.notes.push_back(fmt::format("{}: no variance, of which Sobol' indices and Shapley effects are shares: what is "
-                                  "given for them depends on the samples drawn",
-                                  fmt::join(names, ", ")));
+    r.notes.push_back(
+        fmt::format("{}: Sobol' indices and Shapley effects are shares of a variance, which does not exist "
+                    "here; the values given depend on the samples drawn",
+                    fmt::join(names, ", ")));
 }
 
-/// What the readings of a fit leave themselves, beside samples of it.
+/// Notes the residual root mean square of the readings themselves: that of the samples contains their noise twice.
 void note_residuals(Results& r) {
   for (const FitCovariance& fit : r.fits)
     for (const Budget& b : r.budgets)
       if (b.output.name == fit.output.name && b.applicable)
-        r.notes.push_back(fmt::format("{}: that of the readings themselves is {}; its samples hold noise twice, that of "
-                                      "the readings and that which is drawn",
-                                      b.output.name,
-                                      with_suitable_unit(b.estimate, b.output.unit, b.output.si_unit)));
+        r.notes.push_back(
+            fmt::format("{}: {} for the readings themselves; the samples contain noise twice, that of the "
+                        "readings and that which is drawn",
+                        b.output.name, with_suitable_unit(b.estimate, b.output.unit, b.output.si_unit)));
 }
 
 InputDraws input_draws(const propagation::Experiment& e) {
@@ -246,7 +244,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads, &order);
     const Budget& b = r.budgets[o];
     if (!(b.applicable && b.combined_standard_uncertainty > 0.5 * summary.standard_uncertainty)) {
-      double largest = 0; // where contributions cancel, rounding is theirs
+      double largest = 0; // contributions that cancel leave their own rounding
       for (const Contribution& c : b.contributions) largest = std::fmax(largest, c.contribution);
       join_rounded(summary, largest);
     }
@@ -255,7 +253,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
     warn_of_resolution(summary, b);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
-    certify(summary, b, r.validations[o], p, virtual_experiment);
+    certify(summary, b, r.validations[o], p);
   });
   if (!e.has_gradient() && !virtual_experiment)
     r.notes.push_back("sensitivity coefficients are differences over a standard uncertainty, because the model "

@@ -56,17 +56,17 @@ TEST_CASE("the certificate gives U and k of the framework where it is validated"
   Validation v;
   v.verdict = "validated";
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95, false);
+  certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95);
   CHECK(s.certificate == "y = (10.003387 +- 0.000099) mm, k = 1.96, 95 %");
-  certify(s, framework(s.estimate, 0.0505e-6, 2.262157, 9), v, 0.95, false);
+  certify(s, framework(s.estimate, 0.0505e-6, 2.262157, 9), v, 0.95);
   CHECK(s.certificate == "y = (10.00339 +- 0.00011) mm, k = 2.26 (9 effective degrees of freedom), 95 %");
-  certify(s, framework(s.estimate, 0.0505e-6, 4.417173, infinite), v, 0.99999, false);
+  certify(s, framework(s.estimate, 0.0505e-6, 4.417173, infinite), v, 0.99999);
   CHECK(s.certificate == "y = (10.00339 +- 0.00022) mm, k = 4.42, 99.999 %");
   v.verdict = "not validated";
-  certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95, false);
+  certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95);
   CHECK(s.certificate == "y = (10.00339 +- 0.00011) mm, k = 2.18, 95 %");
   s.standard_uncertainty = std::nan("");
-  certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95, false);
+  certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95);
   CHECK(s.certificate.empty());
   CHECK(std::isnan(s.expanded_uncertainty));
 }
