@@ -170,9 +170,10 @@ private:
     const auto left_out = [&](const std::string& name) {
       const std::string whole = whole_of(name);
       names.insert(whole);
-      for (const std::string& one : request_.without)
-        if (one == name || one == whole) return met.insert(one), true;
-      return false;
+      const auto one = std::ranges::find_if(request_.without, [&](const auto& w) { return w == name || w == whole; });
+      if (one == request_.without.end()) return false;
+      met.insert(*one);
+      return true;
     };
     for (const effects::Active& active : e_.forward().active()) {
       const EffectCard& effect = *effects::cards()[active.effect];

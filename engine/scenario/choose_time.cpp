@@ -1,7 +1,7 @@
 #include "scenario/choose_time.h"
 
 #include <algorithm>
-#include <cctype>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -50,18 +50,11 @@ public:
   }
 
 private:
-  bool is_used(const std::string& name) const {
-    const auto in_name = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80); };
-    for (std::size_t at = texts_.find(name); at != std::string::npos; at = texts_.find(name, at + 1))
-      if ((at == 0 || !in_name(texts_[at - 1])) && !in_name(texts_[at + name.size()])) return true;
-    return false;
-  }
-
-  /// A constant that no formula uses is misspelled.
+  /// Refuses constants that no formula uses: they are misspelled.
   void refuse_unused() {
     if (!table_) return;
     for (const Member& m : table_->members())
-      if (m.key != "per_reading" && m.key != "once" && !is_used(m.key))
+      if (m.key != "per_reading" && m.key != "once" && !used_.contains(m.key))
         problems_.add(m, fmt::format("choose.time.{}: no formula of the time uses it", m.key), "",
                       did_you_mean(m.key, names_of(model_.timing)));
   }
@@ -138,7 +131,6 @@ private:
     const auto add = [&](const char* name, Written formula, std::string_view from_card) {
       if (formula.text.empty()) formula.text = from_card;
       if (formula.text.empty()) return -1;
-      texts_ += formula.text + '\n';
       formula::Stated stated;
       stated.formula.name = std::string("choose.time.") + name;
       stated.formula.text = formula.text;
@@ -160,6 +152,9 @@ private:
       std::vector<std::string> ignored; // what no formula uses
       out->formulas_ = formula::compile(std::move(statement), ignored);
       require_times(out->formulas_);
+      for (const formula::Formula& f : out->formulas_.formulas)
+        for (const formula::Node& node : f.nodes)
+          if (node.operation == formula::Operation::name) used_.insert(node.name);
     } catch (const InputError& error) {
       for (Problem p : error.problems()) {
         if (p.where.file.empty()) p.where = {problems_.file(), choose_.line, choose_.column};
@@ -189,7 +184,7 @@ private:
   std::vector<Symbol> symbols_;
   std::vector<std::size_t> named_;
   std::vector<double> constants_;
-  std::string texts_; ///< of all formulas, each with an end of its line
+  std::set<std::string> used_; ///< names in the formulas of all evaluations
 };
 
 Shape time_shape() {

@@ -275,7 +275,9 @@ void check_limits(const Entry& entry, const QuantityCard& card, const Node& node
   if (!limits.contain(estimate)) {
     const bool low = limits.low_open ? estimate <= limits.low : estimate < limits.low;
     problems.add(node, fmt::format("{}: {} is impossible", path, shown(estimate, card)), limit_text(limits, low, card),
-                 card.unit == "K" ? "state a difference of temperatures in K: 2 degC are 275.15 K" : "");
+                 card.si_unit == "K" && limits.contain(estimate - units::to_si(0, "degC", "K"))
+                     ? "state a difference of temperatures in K: 2 degC are 275.15 K"
+                     : "");
     return;
   }
   // Ends of a sum carry rounding; an open limit is never drawn. Unbounded distributions are the model's to refuse.

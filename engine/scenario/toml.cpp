@@ -145,8 +145,7 @@ private:
 
 Node parse_document(const std::string& text, const std::string& file) {
   Depth(text, file).check();
-  require_memory((std::size_t{1} << 20) +
-                 32 * text.size()); // the parser makes an error of a failure, which ends the process
+  require_memory((std::size_t{1} << 20) + 32 * text.size()); // toml++ ends the process where its errors get none
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
