@@ -33,7 +33,7 @@ Column difference_of(const Column& a, const Column& b) {
           a.phase()};
 }
 
-/// Where the values of one label do not tell all of them apart, the outputs do.
+/// Names all comparisons by their outputs where the values of one label do not distinguish them.
 void tell_apart(std::span<ComparisonResult> results) {
   std::set<std::string> names;
   for (const ComparisonResult& r : results) names.insert(r.name);

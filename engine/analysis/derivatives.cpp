@@ -20,8 +20,9 @@ std::vector<double> plain(const propagation::Experiment& e, std::size_t reading,
   return out;
 }
 
-/// At a kink: which measurands and quantities it concerns, by the values on either side; the others keep their
-/// derivatives, unless these are of a branch of the model that others left. @return measurands that are smooth
+/// Finds the measurands and quantities that a kink concerns, from values on either side of the point. The others keep
+/// their derivatives, or take the difference where the two disagree (the model may have left its branch at the kink).
+/// @return by measurand, whether all of its derivatives stand
 std::vector<bool> find_kinks(const propagation::Experiment& e, std::size_t reading, const std::vector<double>& point,
                              std::vector<Derivatives>& of) {
   constexpr double fraction = 1.0 / 64, alike = 1e-3;

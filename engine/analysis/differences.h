@@ -5,13 +5,14 @@
 
 namespace gumshoe::analysis {
 
-/// A step of one standard uncertainty by each quantity, short of its limits, a power of two; 0: it does not vary there.
+/// Step by each quantity, SI: one standard uncertainty, rounded down to a power of two and short of the quantity's
+/// limits; 0 where it does not vary at this reading.
 std::vector<double> steps(const propagation::Experiment& experiment, std::size_t reading,
                           const std::vector<double>& point);
-/// What rounding makes of a value.
+/// Bound on the rounding error of a value, in its unit.
 double rounding(double value);
 /// Whether the slopes on either side of a value differ by a kink: on a smooth branch their difference halves with the
-/// step, at a kink it stays. @param half_up  at half of the step
+/// step, at a kink it stays. @param up, half_up  values at the step and at half of it
 bool is_kink(double up, double down, double half_up, double half_down, double value);
 
 /// Central differences over one and half a standard uncertainty, extrapolated to a step of zero (Richardson), by

@@ -61,8 +61,7 @@ private:
   std::function<void(std::uint64_t, std::size_t, double*)> draw_;
 };
 
-/// Share of samples, of the first of which it is known; where none of n lies there, the upper 95 % confidence limit 3 /
-/// n.
+/// Share of samples, estimated from the first ones; where none of n lies there, the upper 95 % confidence limit 3 / n.
 std::string share_text(std::size_t inside, std::size_t drawn) {
   const double percent = 100.0 / static_cast<double>(drawn);
   return inside > 0 ? fmt::format("about {:.2g} %", percent * static_cast<double>(inside))

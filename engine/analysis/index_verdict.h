@@ -8,10 +8,10 @@ namespace gumshoe::analysis {
 inline constexpr double widest_interval = 0.1;
 
 /// "not converged": the interval is wider than 0.1, or there is none; take more rows.
-/// "zero within its interval": the interval reaches 0 or below, but for rounding; at this number of rows the index
-/// cannot be told from
-///   zero. A total index is a mean of squares and falls under this only if (nearly) no row's output moved with the
-///   input; an input with a small effect has a small total index that is resolved.
+/// "zero within its interval": the interval reaches 0, or misses it by rounding; at this number of rows the index
+/// cannot
+///   be distinguished from zero. A total index is a mean of squares and falls under this only if (nearly) no row's
+///   output moved with the input; an input with a small effect has a small total index that is resolved.
 /// "resolved": the interval lies above 0 (or, by chance in one index of forty, below it).
 constexpr std::string_view verdict(double low, double high) {
   if (!(high - low <= widest_interval)) return "not converged";

@@ -52,8 +52,8 @@ using KeptOrder = std::optional<OrderedColumn>;
 Summary summarise(const propagation::Output& output, const Column& values, double coverage_probability, int threads = 1,
                   KeptOrder* order = nullptr, Limits limits = Limits());
 /// Values that differ by the rounding of their own computation alone, as where a common error cancels, are one value.
-/// For outputs of which no budget says that they are uncertain. @param largest  contribution; larger ones cancel as
-/// well
+/// For outputs of which no budget says that they are uncertain.
+/// @param largest  largest contribution of the output's budget, SI: contributions that cancel leave their rounding
 void join_rounded(Summary& summary, double largest = 0);
 
 } // namespace gumshoe::analysis

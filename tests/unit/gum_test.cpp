@@ -211,7 +211,7 @@ TEST_CASE("an aligned square rod: the framework does not apply, and says by what
 }
 
 TEST_CASE("a kink of one measurand leaves the budgets of the others", "[gum]") {
-  // Sizes that differences over a fixed step do not resolve: 10 kHz beside 473 THz, 5 Pa beside 210 GPa.
+  // Differences over a fixed step do not resolve 10 kHz added to 473 THz, nor 5 Pa added to 210 GPa.
   const known_case::Case c(
       "schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\nf = \"f0 + df\"\np = \"E + dp\"\n"
       "sag = { formula = \"L * tilt^2 / 2\", unit = \"um\" }\ncube = \"x^3\"\ng = \"abs(df)\"\nh = \"abs(x) + df / "

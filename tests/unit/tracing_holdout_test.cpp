@@ -76,7 +76,7 @@ TEST_CASE("a change is overstated by the normal number that is as improbable for
   CHECK(of(Vector::Constant(2, -1), Vector::Unit(2, 0)) == Approx(0.6744897502).epsilon(1e-9));
   // Nine that agree give 3 as it stands, the most that nine can: no chance gives them.
   CHECK(of(Vector::Constant(9, -1), Vector::Ones(9)) > 30);
-  // Of many, the ratio itself: 400 readings, 230 of them one way.
+  // With 400 readings, 230 of them in one direction, it is the ratio itself.
   Vector left = Vector::Ones(400);
   left.tail(170).setConstant(-1);
   CHECK(of(Vector::Constant(400, -1), left) == Approx((230 - 170) / std::sqrt(400.0)).epsilon(0.01));

@@ -107,8 +107,8 @@ private:
   BlockSpread spread(const Matrix& residuals) const {
     return block_spread(repeats_->pure.about_cells(residuals), repeats_->block, repeats_->blocks);
   }
-  /// Of readings that mostly agree to the last digit a few are off by one step: where these are is chance, which draws
-  /// of a smooth noise do not have.
+  /// Sets blocks that scatter by no more than a step of the display to zero: where the few readings lie that are off by
+  /// one step is chance, and draws of a continuous noise do not contain that chance.
   void leave_out_steps(const Matrix& residuals) {
     const Matrix typical = spread(residuals).typical;
     for (Index b = 0; b < typical.rows(); ++b)

@@ -12,7 +12,7 @@ std::optional<SearchFinding> scatter_shown(const TraceContext& context, const Jo
 
 struct InPlaceOfScatter {
   std::optional<std::size_t> shape;   ///< candidate: a plain shape is there, and no scatter
-  JointFit with_shape;
+  JointFit with_shape;                ///< valid if there is a shape
   std::optional<std::size_t> as_well; ///< candidate: a plain shape describes the scatter as well, and may be chance
   SearchFinding effects;              ///< effects, with the component where it is a member; without terms: none
   std::vector<std::size_t> members;   ///< candidates of `effects`
@@ -24,8 +24,8 @@ struct InPlaceOfScatter {
 /// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them
 /// explains more than scatter would seldom let it, scatter is no member. One group that differs from all others, which
 /// agree, explains more than scatter, and so does a temperature that was recorded, a drift, or what came and went in
-/// time: plain shapes, found where scatter would seldom let them. Beside a shape there are only effects that explain as
-/// much, which then go before it.
+/// time: plain shapes, found where scatter would seldom let them. Where there is a shape, the effects
+/// are those that explain as much as it (criteria.equal_merit): they go before it.
 InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence& evidence,
                                      const SearchFinding& scatter);
 
