@@ -210,6 +210,7 @@ struct Criteria {
   std::size_t rival_shapes = 3;   ///< plain shapes compared with the best effect
   std::size_t most_shapes = 6;    ///< shapes tried where no effect passes
   std::size_t most_paired = 60;   ///< candidates whose pairs with all others are tried, by cost
+  double pairs_alpha = 0.2;       ///< share of alpha that pairs may use where nothing passes alone
   /// A candidate could still win if its score is at least this share of the best one's, less a constant (2 ln L).
   /// Tuned.
   double contender_share = 0.6, contender_margin = 5;

@@ -60,15 +60,16 @@ double chance_of_pair(const Evidence& e, const Tried& tried, double excess) {
 
 } // namespace
 
-std::optional<std::array<std::size_t, 2>> hidden_pair(const Evidence& e, double best_shape, double alpha) {
+std::optional<HiddenPair> hidden_pair(const Evidence& e, double best_shape, double alpha) {
   const Tried tried = tried_in_pairs(e);
   if (tried.first == 0) return std::nullopt;
   const Pair best = best_pair(e, tried, e.pair_scores(tried.all, tried.first));
   if (best.score == 0) return std::nullopt;
   const auto [a, b, score] = best;
   if (!pair_found(score, {e.score(a), e.score(b)}, {e.limit(a), e.limit(b)}, best_shape)) return std::nullopt;
-  if (chance_of_pair(e, tried, best.excess(e, e.score(a), e.score(b))) > alpha) return std::nullopt;
-  return std::array{a, b};
+  const double p = chance_of_pair(e, tried, best.excess(e, e.score(a), e.score(b)));
+  if (p > alpha) return std::nullopt;
+  return HiddenPair{{a, b}, p};
 }
 
 } // namespace gumshoe::tracing

@@ -111,7 +111,9 @@ private:
       out_.tried = static_cast<int>(evidence.candidates().size() + c_.observations.replicate_groups.size());
       out_.limits = detection_limits(evidence.scan(), evidence.assessment(), evidence.candidates());
     }
-    bool more = look_for_signature(evidence.assessment(), now().alpha) && take_signature();
+    bool more = look_for_signature(evidence.assessment(), now().alpha)
+                    ? take_signature()
+                    : sought_.names && take_pair(best_shape(), criteria.pairs_alpha);
     if (!more && look_for_scatter(evidence.assessment(), now().alpha)) more = take_component();
     if (first)
       out_.ranking =
@@ -153,15 +155,10 @@ private:
       outcomes_[t.candidate] = limited ? impossible : not_by_the_model;
       if (limited) out_.impossible.push_back(candidate(t.candidate).name);
     }
-    const auto score_of_best = [&](const std::vector<std::size_t>& of) {
-      return of.empty() ? 0 : evidence_->score(of[0]);
-    };
-    if (tried.empty())
-      return take_pair(score_of_best(evidence_->best_of([](const Candidate& a) { return !a.physical(); }, 1))) ||
-             take_shape();
+    if (tried.empty()) return take_pair(best_shape()) || take_shape();
     const std::size_t best = tried[0].candidate;
     if (const auto shape = shape_instead(tried[0], plain)) {
-      if (take_pair(score_of_best(plain))) return true;
+      if (take_pair(plain.empty() ? 0 : evidence_->score(plain[0]))) return true;
       for (const Trial& t : tried)
         outcomes_[t.candidate] = "refused: " + with_shape(candidate(*shape)) + " fits better and is as simple";
     } else if (evidence_->predicts_better(tried[0].fit)) {
@@ -198,23 +195,34 @@ private:
     return std::nullopt;
   }
 
-  /// One masks the other: two effects together that explain more than shapes do. @param best_shape  a shape's score
-  bool take_pair(double best_shape) {
-    const auto pair = hidden_pair(*evidence_, best_shape, now().alpha);
+  double best_shape() const {
+    const auto best = evidence_->best_of([](const Candidate& a) { return !a.physical(); }, 1);
+    return best.empty() ? 0 : evidence_->score(best[0]);
+  }
+
+  /// One masks the other: two effects together that explain more than shapes do.
+  /// @param best_shape  a shape's score
+  /// @param share       of alpha: 1 where something passes; else what a second search may use
+  bool take_pair(double best_shape, double share = 1) {
+    const auto pair = hidden_pair(*evidence_, best_shape, share * now().alpha);
     if (!pair) return false;
     std::vector<Term> both;
-    for (const std::size_t a : *pair)
+    for (const std::size_t a : pair->candidates)
       both.push_back(candidate(a).start.empty() ? Term{candidate(a), Vector::Zero(candidate(a).columns.cols())}
                                                 : at_start(candidate(a)));
     const JointFit fit = evidence_->with_shapes(both);
     if (!fit.valid || !evidence_->predicts_better(fit)) return false;
+    const auto& [a, b] = pair->candidates;
+    if (share < 1 && out_.findings.empty())
+      out_.first.p_anything = std::min(out_.first.p_anything, pair->p_value / share);
     for (const std::size_t i : {0, 1}) {
-      SearchFinding found = found_by((*pair)[i], Kind::named, i);
-      found.finding.remarks.push_back("found together with " + candidate((*pair)[1 - i]).name +
+      SearchFinding found = found_by(i == 0 ? a : b, Kind::named, i);
+      if (share < 1) found.finding.p_value = pair->p_value / share;
+      found.finding.remarks.push_back("found together with " + candidate(i == 0 ? b : a).name +
                                       "; each masks the other");
       add(std::move(found));
-      outcomes_[(*pair)[i]] = alone;
     }
+    outcomes_[a] = outcomes_[b] = alone;
     adopt(fit);
     return true;
   }
