@@ -48,6 +48,18 @@ StatedUnit first_unit(const Node& node) {
   return {};
 }
 
+/// A value that is no number has no unit either, which would be blamed on a formula.
+void refuse_no_number(const Node& node, const std::string& path, Problems& problems) {
+  const Node* const inner = find_member(node, "value");
+  const Node& value = inner ? *inner : node;
+  if (value.kind != Node::Kind::text) return;
+  try {
+    units::parse(value.text);
+  } catch (const InputError& error) {
+    problems.add(value, inner ? path + ".value" : path, error);
+  }
+}
+
 std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
   std::vector<Symbol> out;
   auto table = top.table(key);
@@ -56,6 +68,7 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
     if (const auto reserved = formula::reserved_as(m.key); !reserved.empty())
       problems.add(m, fmt::format("{}: this name is {}", table->path(m.key), reserved),
                    "a formula could not tell the two apart", "rename it");
+    if (key != std::string_view("indications")) refuse_no_number(m.value, table->path(m.key), problems);
     const StatedUnit stated = first_unit(m.value);
     const std::string unit = stated.unit.empty() ? "1" : stated.unit;
     const auto si_unit = read_si_unit(stated.node ? *stated.node : m.value, table->path(m.key), unit, problems);

@@ -38,7 +38,7 @@ public:
     }
     if (indications) indications->refuse_unknown();
     drop_selecting_labels();
-    merge(tables, conditions);
+    merge(tables, conditions, problems_.size() == before);
     context_.readings_known = problems_.size() == before;
     for (const Reading& r : out_.readings) context_.readings.push_back(r.labels);
     for (const auto& of_one : out_.readouts)
@@ -103,7 +103,8 @@ private:
 
   /// One reading per group of equal labels and conditions, in the order of the first indication; without indications
   /// those of the conditions.
-  void merge(std::vector<Table>& tables, const Conditions& conditions) {
+  /// @param sound  whether every indication was read: else what is missing follows from what was said
+  void merge(std::vector<Table>& tables, const Conditions& conditions, bool sound) {
     std::vector<IndicationReadouts>& readouts = out_.readouts;
     for (std::size_t i = 0; i < readouts.size(); ++i) {
       for (Readouts& r : readouts[i].used) {
@@ -125,8 +126,9 @@ private:
       }
     }
     for (const Reading& r : out_.readings) {
-      if (r.indications.empty() || r.indications.size() == readouts.size()) continue;
-      tables.back().add(fmt::format("indications: the reading {} lacks an indication", text_of(r.labels)));
+      if (!sound || r.indications.empty() || r.indications.size() == readouts.size()) continue;
+      const std::string which = r.labels.empty() ? "a reading" : "the reading " + text_of(r.labels);
+      tables.back().add(fmt::format("indications: {} lacks an indication", which));
     }
     if (out_.readings.empty())
       for (const Commanded& c : conditions.readings) out_.readings.push_back({c.labels, c.values, {}, 1});

@@ -253,6 +253,11 @@ void check_data(Table& top, Context& context) {
   if (const auto file = read_data_file(*data, context.files, true)) read_units(*data, *file->csv);
   for (const Key& key : data_keys()) data->find(key.name);
   data->refuse_unknown();
+}
+
+void refuse_unread_data(Table& top, Context& context) {
+  const Node* const data = top.find("data");
+  if (!data) return;
   const Node* const indications = top.find("indications");
   const auto refers = [](const Member& indication) {
     const auto& members = indication.value.members;
@@ -264,7 +269,7 @@ void check_data(Table& top, Context& context) {
             std::ranges::find(node.members, "file", &Member::key) == node.members.end());
   };
   if (!indications || std::ranges::none_of(indications->members, refers))
-    context.problems.add(data->node(), "data: no indication reads a column of it", "",
+    context.problems.add(*data, "data: no indication reads a column of it", "",
                          "readings = { column = \"...\", unit = \"mm\" }");
 }
 

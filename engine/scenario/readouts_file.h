@@ -8,8 +8,10 @@ namespace gumshoe::scenario {
 std::vector<Key> readouts_file_keys();
 /// [data]
 std::vector<Key> data_keys();
-/// Checks what no indication or all of them ask for: unknown keys, the file, the units, whether it is used.
+/// Checks what no indication or all of them ask for: unknown keys, the file, the units.
 void check_data(Table& top, Context& context);
+/// Refuses a [data] of which no indication reads a column. For scenarios whose indications are sound.
+void refuse_unread_data(Table& top, Context& context);
 /// Reads `readings` of the indication. `conditions`: SI, by position in the model's card; columns of the file replace
 /// them.
 IndicationReadouts read_readouts_file(Table& indication, const VariableCard& card, const ModelCard& model,

@@ -75,6 +75,8 @@ public:
     const ModelCard &own = *model, seen = evaluated_card(own, out_.evaluation);
     model = &seen;
     Readings readings = read_readings(top, *model, out_.method, context_);
+    if (problems_.size() == before)
+      refuse_unread_data(top, context_); // else what is wrong with an indication tells why
     out_.readings = std::move(readings.readings);
     out_.spreads = std::move(readings.spreads);
     read_quantities(top, *model);

@@ -269,6 +269,12 @@ columns.t = { column = "t", unit = "s" }
                      "data: no indication reads a column of it",
                      scenario=SCENARIO.replace('readings = "x_um"\nu = { column = "sd_um", unit = "um" }', 'readings = ["1 um"]'))
 
+    def test_a_mistake_of_an_indication_is_told_and_not_that_the_data_are_unread(self):
+        only_x = SCENARIO.replace('{ column = "y_um" }', '["1 um"]')
+        for change, said in ((('readings = "x_um"', 'redings = "x_um"'), "Did you mean 'readings'?"),
+                             (('readings = "x_um"', "readings = true"), "indications.x.readings")):
+            self.assertNotIn("no indication reads a column", self.refused(change, said, scenario=only_x))
+
     def test_mistakes_of_stretches(self):
         for blocks, said in (("{ count = 10 }", "there are only 9 rows"), ("{}", "either every or count is expected"),
                              ('{ every = "1 h", count = 2 }', "either every or count is expected"),

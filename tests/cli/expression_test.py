@@ -123,6 +123,22 @@ coverage_probability = 0.99
     def test_length_plus_angle(self):
         self.refused(H2.replace('Z = "ratio"', 'Z = "V + phi"'), 9, 8, "a voltage plus an angle")
 
+    def test_a_value_that_is_no_number_is_told_and_no_formula(self):
+        """Without a unit the formula would add a length to a plain number."""
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "a + b"
+[quantities]
+a = { value = "1 mm", u = "1 um" }
+b = "20,0 mm"
+"""
+        self.refused(text, 8, 5, "quantities.b: '20,0 mm'")
+        self.refused(text.replace('"20,0 mm"', '{ u = "1 um", value = "20,0 mm" }'), 8, 27, "quantities.b.value: '20,0 mm'")
+        self.refused(text.replace("[quantities]", "[conditions]\nc = \"3,0 mm\"\n[quantities]").replace("a + b", "a + c"),
+                     7, 5, "conditions.c: '3,0 mm'")
+
     def test_circle(self):
         self.refused(H2.replace('"V / I"', '"V / I * R / R"'), 7, 6, "'ratio' depends on itself", "R -> ratio")
 
