@@ -278,7 +278,7 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
           {csv.at(row.front()), fmt::format("the row has {} cells, the header {}", row.size(), csv.header.size()),
            commas ? "a comma separates cells" : "",
            commas ? "is the comma the decimal sign? Then write semicolons between the cells, and decimal "
-                    "= \",\" in the scenario"
+                    "= \",\" in the scenario (evaluate: --decimal \",\")"
                   : ""});
     } else {
       csv.rows.push_back(std::move(row));

@@ -62,7 +62,7 @@ Asked asked(const std::string& name) {
 void add_evaluate(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("evaluate", "evaluates the model at the points of a table, without sampling");
   struct Options {
-    std::string model, table, out, evaluation;
+    std::string model, table, out, evaluation, decimal = ".";
     bool force = false;
   };
   const auto o = std::make_shared<Options>();
@@ -75,11 +75,12 @@ void add_evaluate(CLI::App& app, Action& action) {
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--evaluation", o->evaluation, "evaluation of the model (default: the scenario's, or the first)");
+  command->add_option("--decimal", o->decimal, "decimal sign of the table's numbers")->check(CLI::IsMember({".", ","}));
   command->callback([=, &action] {
     action = [=] {
       const Asked of = asked(o->model);
       const Csv table = read_csv(o->table);
-      const auto points = propagation::evaluate_points(*of.model, table, o->evaluation, of.values.get());
+      const auto points = propagation::evaluate_points(*of.model, table, o->evaluation, of.values.get(), o->decimal[0]);
       const std::string text = to_csv(table, points);
       if (o->out.empty())
         std::cout << text;

@@ -163,8 +163,8 @@ void evaluate_rows(const TablePoints& at, const std::vector<Slot>& slots, const 
 } // namespace
 
 PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation,
-                           const Experiment* values) {
-  TableColumns columns = table_columns(model, table, values);
+                           const Experiment* values, char decimal) {
+  TableColumns columns = table_columns(model, table, values, decimal);
   std::vector<Problem> unknown;
   const std::size_t chosen = chosen_evaluation(
       *model.card, evaluation.empty() && values ? values->scenario().evaluation : evaluation, unknown);

@@ -25,7 +25,8 @@ struct PointTable {
 /// cells that cannot be read.
 /// @param evaluation empty: the scenario's, or the first
 /// @param values     a scenario of the model, whose estimates and conditions take the place of the defaults; null: none
+/// @param decimal    decimal sign of the table's numbers, '.' or ','
 PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation,
-                           const Experiment* values = nullptr);
+                           const Experiment* values = nullptr, char decimal = '.');
 
 } // namespace gumshoe::propagation

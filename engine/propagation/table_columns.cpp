@@ -61,25 +61,27 @@ Problem beyond_limits(const Slot& slot, const Csv& table, const CsvCell& cell, c
           ""};
 }
 
-void read_cells(Slot& slot, const std::string& unit, const Csv& table, TableColumns& out) {
+void read_cells(Slot& slot, const std::string& unit, const Csv& table, char decimal, TableColumns& out) {
   const auto index = static_cast<std::size_t>(slot.given_column);
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const CsvCell& cell = table.rows[r][index];
     try {
-      slot.column.push_back(units::to_si(table.number(cell), unit, slot.si_unit));
+      slot.column.push_back(units::to_si(table.number(cell, decimal), unit, slot.si_unit));
       if (slot.limits.contain(slot.column.back())) continue;
       out.bad_row[r] = true;
       out.impossible.push_back(beyond_limits(slot, table, cell, unit));
     } catch (const InputError& error) {
       Problem p = error.problems().front();
       if (p.where.file.empty()) p.where = table.at(cell);
+      if (!p.remedy.empty())
+        p.remedy = fmt::format("add --decimal \"{}\"", decimal == ',' ? '.' : ','); // no key of a scenario
       out.problems.push_back(p);
       slot.column.push_back(0);
     }
   }
 }
 
-void read_column(std::size_t c, const Csv& table, TableColumns& out) {
+void read_column(std::size_t c, const Csv& table, char decimal, TableColumns& out) {
   const auto [name, unit] = split_header(table.header[c].text);
   const Location where = table.at(table.header[c]);
   const auto slot = std::ranges::find(out.slots, name, &Slot::name);
@@ -105,7 +107,7 @@ void read_column(std::size_t c, const Csv& table, TableColumns& out) {
     out.problems.push_back(p);
     return;
   }
-  read_cells(*slot, unit, table, out);
+  read_cells(*slot, unit, table, decimal, out);
 }
 
 } // namespace
@@ -116,12 +118,12 @@ const Slot* TableColumns::given(std::string_view name) const {
   return nullptr;
 }
 
-TableColumns table_columns(const models::Model& model, const Csv& table, const Experiment* values) {
+TableColumns table_columns(const models::Model& model, const Csv& table, const Experiment* values, char decimal) {
   TableColumns out;
   out.slots = slots_of(model);
   if (values) take_values(*values, *model.card, out.slots);
   out.bad_row.assign(table.rows.size(), false);
-  for (std::size_t c = 0; c < table.header.size(); ++c) read_column(c, table, out);
+  for (std::size_t c = 0; c < table.header.size(); ++c) read_column(c, table, decimal, out);
   for (const Slot& s : out.slots)
     if (s.effect && (s.freed || s.given_column >= 0) && std::ranges::find(out.acting, s.effect) == out.acting.end())
       out.acting.push_back(s.effect);

@@ -35,7 +35,9 @@ struct TableColumns {
   const Slot* given(std::string_view name) const;
 };
 
-/// @param values those of a scenario take the place of the card's defaults; null: none
-TableColumns table_columns(const models::Model& model, const Csv& table, const Experiment* values = nullptr);
+/// @param values  those of a scenario take the place of the card's defaults; null: none
+/// @param decimal decimal sign of the table's numbers, '.' or ','
+TableColumns table_columns(const models::Model& model, const Csv& table, const Experiment* values = nullptr,
+                           char decimal = '.');
 
 } // namespace gumshoe::propagation

@@ -52,6 +52,20 @@ class Evaluate(InFolder):
             self.assertTrue(line.startswith(start) and line.endswith(",ok"), line)
         self.assertEqual(len(lines), 4)
 
+    def test_decimal_commas(self):
+        """A cell with the other decimal sign is refused, and the remedy works; the numbers are the same."""
+        text = "beam_pitch (deg);rod_radius (mm)\n0,30;5,5\n"
+        refused = self.run_text(text)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("points.csv:2:1: error: '0,30' is not a number (the decimal sign must be a point). Add --decimal \",\".", refused.stderr)
+        run = self.run_text(text, "--decimal", ",")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        same = self.run_text(text.replace(",", "."))
+        self.assertEqual(run.stdout.splitlines()[1].split(",", 4)[4], same.stdout.splitlines()[1].split(",", 2)[2])
+        self.assertTrue(run.stdout.splitlines()[1].startswith('"0,30","5,5",'), run.stdout)
+        other = self.run_text(text.replace("0,30", "0.30"), "--decimal", ",")
+        self.assertIn("(the decimal sign must be a comma). Add --decimal \".\".", other.stderr)
+
     def test_rows_do_not_depend_on_their_neighbours(self):
         # 19 rows are two groups of eight lanes and a padded rest; failing and impossible rows stand among them.
         points = [(5 + 0.1 * i, 0.02 * i, 0.5) for i in range(19)]
