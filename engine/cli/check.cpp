@@ -27,8 +27,12 @@ void add_check(CLI::App& app, Action& action) {
         std::cout << fmt::format("note: the scenario names code of its own, which this check ran with your rights: {}\n",
                                  s.external);
       for (const std::string& note : scenario::notes_of_a_run(s)) std::cout << "note: " << note << '\n';
-      std::cout << fmt::format("{}: good: model {}, {} readings, {} variates, {} outputs\n", o->file, s.model,
-                               s.readings.size(), experiment.plan().variates.size(), experiment.outputs().size());
+      const auto counted = [](std::size_t n, const char* what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+      };
+      std::cout << fmt::format(
+          "{}: good: model {}, {}, {}, {}\n", o->file, s.model, counted(s.readings.size(), "reading"),
+          counted(experiment.plan().variates.size(), "variate"), counted(experiment.outputs().size(), "output"));
       return ExitCode::done;
     };
   });

@@ -31,12 +31,12 @@ struct CompareOptions {
   bool all = false;
 };
 
-bool is_trace(const std::string& path) {
-  const store::Identity identity = require_finished(path);
+store::Identity comparable(const std::string& path) {
+  store::Identity identity = require_finished(path);
   if (!identity.has_outputs() && identity.command != "trace")
     throw InputError(path + ": holds no result to compare", fmt::format("gumshoe {} wrote it", identity.command),
                      "compare results of gumshoe run, or of gumshoe trace");
-  return identity.command == "trace";
+  return identity;
 }
 
 /// "21 % smaller"; empty where there is nothing to relate.
@@ -198,11 +198,15 @@ ExitCode compare_traces(const CompareOptions& o) {
 }
 
 ExitCode compare(const CompareOptions& o) {
-  const bool before = is_trace(o.before), after = is_trace(o.after);
-  if (before != after)
+  const store::Identity before = comparable(o.before), after = comparable(o.after);
+  const bool traces = before.command == "trace";
+  if (traces != (after.command == "trace"))
     throw InputError("a trace and a result of measurands cannot be compared",
-                     fmt::format("{} is the trace", before ? o.before : o.after), "name two files of one kind");
-  return before ? compare_traces(o) : compare_results(o);
+                     fmt::format("{} is the trace", traces ? o.before : o.after), "name two files of one kind");
+  if (traces && before.model != after.model)
+    throw InputError("the traces are of different models", fmt::format("{} and {}", before.model, after.model),
+                     "compare traces of one measuring system");
+  return traces ? compare_traces(o) : compare_results(o);
 }
 
 } // namespace

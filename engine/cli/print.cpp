@@ -226,7 +226,7 @@ void print_predicted(const Results& r) {
 } // namespace
 
 void print_text(const Results& r, const std::string& file, const PrintOptions& options) {
-  std::cout << printable(r.title) << '\n';
+  if (!r.title.empty()) std::cout << printable(r.title) << '\n';
   const std::set<std::string> printed = print_outputs(r, options);
   print_validations(r);
   Results in_full = r;

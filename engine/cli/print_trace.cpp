@@ -152,8 +152,8 @@ void print_candidates(const std::vector<RankedCandidate>& candidates) {
     const RankedCandidate& c = candidates[i];
     std::cout << fmt::format("{:<{}}  {:>9}  {:>9}  {:>5.1f}%  {}{}\n", c.name, width,
                              std::isfinite(c.statistic) ? fmt::format("{:.4g}", c.statistic) : "-",
-                             probability(c.p_single), 100 * c.identifiable, c.outcome,
-                             c.shape.empty() ? "" : ", with " + c.shape);
+                             probability(c.p_single), 100 * c.identifiable,
+                             c.shape.empty() ? "" : "with " + c.shape + "; ", c.outcome);
   }
   if (n < candidates.size()) std::cout << fmt::format("({} more in the result file)\n", candidates.size() - n);
 }

@@ -16,7 +16,9 @@ KINDS = {"named": "one effect", "class": "effects that these data cannot disting
 
 
 def in_words(name):
-    """What was found, as a headline says it."""
+    """What was found, as a headline says it; names of effects that may be it are divided by " | "."""
+    if " | " in name:
+        return " or ".join(map(in_words, name.split(" | ")))
     family, _, rest = name.partition(":")
     return f"{names.of_quantity(rest)} is not what was declared" if family == "declared" and rest else names.readable(name)
 
@@ -41,11 +43,6 @@ def capitalised(text):
     return text[:1].upper() + text[1:]
 
 
-def in_remark(text):
-    """Candidates by their readable names."""
-    return re.sub(r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave):[\w*^/]+", lambda m: names.readable(m[0]), text)
-
-
 UNDECIDED = "the held-out readings neither confirm nor reject it"
 UNKNOWN = "an unknown effect"
 
@@ -68,9 +65,24 @@ class Trace:
         self.known = math.isfinite(t.rms.before)
         self.unit, self.factor = shown_unit(t.rms, max(sizes, default=0))
         self.places = decimals(self.factor * (sizes[0] if sizes else math.nan))
+        # A name may hold spaces and brackets: those of what was tried are known.
+        tried = {c.name for c in t.candidates} | {m for f in t.findings for m in f.members}
+        known = [re.escape(name) for name in sorted(tried, key=len, reverse=True) if ":" in name]
+        self.names = re.compile("|".join([*known, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave):[\w*^/]+"]))
         self.found = bool(t.findings)
         self.added = any(r.after != r.before for r in t.residuals if math.isfinite(r.before))
         self.apart = any(r.final for r in t.residuals)
+
+    def in_remark(self, text):
+        """Candidates by their readable names."""
+        return self.names.sub(lambda m: names.readable(m[0]), text)
+
+    def statements(self):
+        return [self.in_remark(text) for text in self.t.statements]
+
+    def plain(self):
+        """What it means, in one paragraph."""
+        return self.in_remark(" ".join(self.t.plain))
 
     def number(self, si):
         """A residual's size, to the place that the noise asks for, but to three digits at most."""
@@ -218,7 +230,7 @@ class Trace:
                 members=[(names.readable(m), m) for m in f.members], to_do=self.to_do(f),
                 cells=f.tables, tables=[compensation.table(table) for table in f.tables],
                 p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
-                suggestion=f.suggestion, remarks=[in_remark(x) for x in f.remarks if x != f"described by {f.described_by}"], sizes=self.sizes(f),
+                suggestion=f.suggestion, remarks=[self.in_remark(x) for x in f.remarks if x != f"described by {f.described_by}"], sizes=self.sizes(f),
                 removed=of_all(f.removed_share) if f.removed_share > 0 else "", curves=f.curves)
 
     def before_and_after(self):
@@ -250,13 +262,13 @@ class Trace:
                 said=names.readable(c.name, c.shape), name=c.name, shape=c.shape, family=FAMILIES.get(c.family, c.family), parameters=c.parameters,
                 statistic=significant(c.statistic, 3), width=100 * c.statistic / top if top > 0 and c.statistic > 0 else 0,
                 p=significant(c.p_single), left=percent(c.identifiable), absorbed=c.absorbed_by,
-                correlation=fixed(c.correlation, 2), outcome=c.outcome, kept=not c.outcome.startswith("refused"))
+                correlation=fixed(c.correlation, 2), outcome=self.in_remark(c.outcome), kept=not c.outcome.startswith("refused"))
 
     def rounds(self):
         """Every round of `--loop` with what it added and its ranking; none if there was one round."""
         for k, r in enumerate(self.t.rounds):
             added = ("nothing: the hold-out blocks are not predicted better" if r.vetoed else
-                     "; ".join(counted([UNKNOWN if a == "not in the catalogue" else " or ".join(map(in_words, a.split(" | ")))
+                     "; ".join(counted([UNKNOWN if a == "not in the catalogue" else in_words(a)
                                         for a in r.added])) or "nothing")
             yield types.SimpleNamespace(
                 number=k + 1, added=added, candidates=list(self.candidates(r.candidates))[:LISTED // 2] if k else [],

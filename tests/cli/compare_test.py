@@ -106,10 +106,13 @@ class Compare(Lengths):
         self.assertRegex(said, r"  held-out readings: from \S+ um to \S+ um \(\d+ % smaller\)\n")
         self.assertIn("expected after correcting what was found: ", said)
         self.refused("a trace and a result of measurands cannot be compared", files[0], self.before)
-        cell = self.folder / "cell.h5"
-        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.refused("the traces have residuals of different dimensions", files[0], cell)
+        cells = []
+        for name in ("load_cell", "thermometer"):
+            cells.append(self.folder / f"{name}.h5")
+            run = gumshoe("trace", f"scenarios/trace_{name}.toml", "--draws", 19, "--out", cells[-1], cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        self.refused("the traces have residuals of different dimensions", *cells)
+        self.refused("the traces are of different models (linear_axis and expression)", files[0], cells[0])
         self.refused("two traces have no budgets to compare", *files, "--same", "reference")
 
     def correct(self, data):

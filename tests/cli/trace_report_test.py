@@ -54,6 +54,12 @@ class Made(InOneFolder):
     def file(cls, kind):
         return cls.folder / f"{kind}.h5"
 
+    def test_candidates_have_readable_names(self):
+        self.assertEqual(trace.in_words("scatter:cycle | omnibus:time"), "scatter by cycle or any smooth dependence on time")
+        for kind in KINDS:
+            prose = re.sub(r"(?s)<(code|pre|script|style)\b.*?</\1>|<[^>]*>", " ", self.pages[kind])
+            self.assertNotRegex(prose, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave|step|scatter|declared):\w")
+
     def table(self, kind, name):
         with open(self.folder / f"{kind}_{name}.csv", encoding="utf-8") as file:
             return list(csv.DictReader(file))

@@ -106,11 +106,13 @@ constexpr Field<Rms> rms[] = {
 
 constexpr Field<Noise> noise[] = {
     {"scale", of<&Noise::scale>, one,
-     "factor on the declared standard uncertainties; if none is declared, standard uncertainty of one reading, SI", in_json},
-    {"correlation", of<&Noise::correlation>, one, "correlation of successive readings in the order of measurement", in_json},
+     "factor on the declared standard uncertainties; if none is declared, standard uncertainty of one reading, SI",
+     in_json},
+    {"correlation", of<&Noise::correlation>, one, "correlation of successive readings in the order of measurement",
+     in_json},
     {"scatter_u", of<&Noise::scatter_u>, difference, "standard uncertainty of the variance component", in_json},
     {"chi_squared_p", of<&Noise::chi_squared_p>, one,
-     "p-value of residuals as large as these under the declared noise", in_json},
+     "p-value of residuals as large as those before the findings under the declared noise", in_json},
     {"scatter", of<&Noise::scatter>, one, "labels of the variance component in use, or empty", in_json},
     {"declared", of<&Noise::declared>, one, "1 if the scenario declares the noise", in_json},
     {"outliers", of<&Noise::outliers>, one, "number of readings that were down-weighted", in_json}};
