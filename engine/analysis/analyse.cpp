@@ -41,6 +41,8 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
     return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
   };
   const std::string unit = units::suffix(s.output.unit);
+  if (s.standard_uncertainty == 0 && s.valid > 1)
+    return fmt::format("{} = {:.10g}{}, the same in every sample.", s.output.name, shown(s.estimate), unit);
   const int d = decimals_for(width(
       std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
   constexpr std::string_view said_before = "no standard uncertainty: ";

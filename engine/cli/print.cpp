@@ -92,11 +92,7 @@ void print_details(const Results& r, std::size_t o, bool budget) {
 
 /// The certificate's line; the statement in words where there is none.
 std::string head_line(const Summary& s) {
-  if (!s.certificate.empty()) return s.certificate;
-  if (s.standard_uncertainty == 0 && s.valid > 1)
-    return fmt::format("{} = {:.10g}{}, the same in every sample", s.output.name, point(s.output, s.estimate),
-                       units::suffix(s.output.unit));
-  return s.statement;
+  return s.certificate.empty() ? s.statement : s.certificate;
 }
 
 /// One line for all readings of a measurand, and the reading of the largest u in full.

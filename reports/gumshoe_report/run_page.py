@@ -39,14 +39,15 @@ def sections(r):
     for k, output in enumerate(varying(r)[:LISTED]):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
         full = k < OPEN
+        varies = not tables.constant(output)
         u = output.standard_uncertainty
         verdict = verdicts.get(output.name)
         accounted = not of.budget or explain.law_accounts(of.budget, output, verdict.verdict if verdict else "")
         yield types.SimpleNamespace(
-            summary=tables.summary_row(output), open=full, targets=targets.get(output.name, []),
+            summary=tables.summary_row(output), open=full, varies=varies, targets=targets.get(output.name, []),
             certificate=certificate.line(output, of.budget, verdict, r.coverage_probability),
             reduce=reduce.table(of.budget, u, of.sobol, of.shapley, of.given, accounted),
-            distribution=picture(full, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
+            distribution=picture(full and varies, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
             budget=tables.budget(of.budget, u, of.sobol) if of.budget else None, sobol=of.sobol,
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
             side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),

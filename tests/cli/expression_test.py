@@ -184,6 +184,30 @@ max_failed_share = 0.5
                 self.assertLess(max(map(len, run.stdout.split())), 40)  # no numbers of 300 digits
                 self.assertEqual("failed: not_finite: 1794 samples" in run.stdout, failed)
 
+    def test_a_constant_is_told_once(self):
+        """Beside a measurand that varies and alone: no digits of a u that is zero, no sections without contents."""
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "2 * a"
+[quantities]
+a = "1.5 mm"
+b = { value = "1 mm", u = "1 um" }
+[run]
+samples = 1000
+"""
+        for more in ("", 'z = "a + b"\n'):
+            out = self.folder / "c.h5"
+            run = gumshoe("run", self.scenario(text.replace("[quantities]", more + "[quantities]")), "--out", out, "--force")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("y = 3 mm, the same in every sample.\n", run.stdout)
+            self.assertEqual(gumshoe("report", out).returncode, 0)
+            page = out.with_suffix(".html").read_text(encoding="utf-8")
+            self.assertEqual(page.count("Uncertainty budget</h3>"), bool(more))
+            self.assertEqual(page.count("Distribution</h3>"), bool(more))
+            self.assertNotIn("0.000000", page)
+
     def test_unused_quantity_is_a_note(self):
         run = gumshoe("check", self.scenario(H2.replace("[quantities.V]", "[quantities.idle]\nvalue = 1\n[quantities.V]")))
         self.assertEqual(run.returncode, 0, run.stderr)
