@@ -85,8 +85,8 @@ void print_finding(const Finding& f, bool vetoed) {
   for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
 }
 
-/// @param cells  sets of equal conditions; one alone has readings that differ in nothing that was set
-void print_rms(const Rms& r, int cells) {
+void print_rms(const Trace& t) {
+  const Rms& r = t.rms;
   const RmsFigures figures(r);
   const auto show = [&](double si) { return figures.show(si); };
   const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
@@ -108,10 +108,19 @@ void print_rms(const Rms& r, int cells) {
        noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));
   line("  worst block: " + r.worst_block, r.worst_block_before, r.worst_block_after, "");
   line("  worst point: " + r.worst_point, r.worst_point_before, r.worst_point_after, "");
+  for (const IndicationError& e : t.of_indications) {
+    const RmsFigures own(e.unit, e.si_unit);
+    const bool held_out = std::isfinite(e.holdout_after);
+    const double was = held_out ? e.holdout_before : e.before, is = held_out ? e.holdout_after : e.after;
+    std::cout << fmt::format("{:<44}{:>10}{:>10}\n",
+                             fmt::format("  {}: {}{}", held_out ? "hold-out" : "in sample", e.name,
+                                         own.unit.empty() || own.unit == "1" ? "" : ", " + own.unit),
+                             own.show(was), own.show(is));
+  }
   if (std::isfinite(r.replicate_floor))
     std::cout << fmt::format("  replicate floor: readings {} scatter by {} (95 %: {} to {})\n",
-                             cells > 1 ? "of equal conditions" : "that follow each other", show(r.replicate_floor),
-                             show(r.replicate_floor_low), show(r.replicate_floor_high));
+                             t.lack_of_fit.cells > 1 ? "of equal conditions" : "that follow each other",
+                             show(r.replicate_floor), show(r.replicate_floor_low), show(r.replicate_floor_high));
   if (std::isfinite(r.share_removed))
     std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
                              r.share_removed > 1   ? "all"
@@ -189,7 +198,7 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   print_verdict(t);
   for (const Finding& f : t.findings) print_finding(f, t.vetoed);
   if (std::isfinite(t.rms.before)) {
-    print_rms(t.rms, t.lack_of_fit.cells);
+    print_rms(t);
     print_noise(t.noise, t.rms);
     print_repeats(t);
   }

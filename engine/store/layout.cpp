@@ -45,8 +45,8 @@ std::vector<TableText> tables() {
       choice::figure_fields, choice::asked_fields, choice::searched_fields, choice::fresh_fields, choice::neighbour_fields);
   add(volume_fields, volume_axis_fields, volume_point_fields, volume_share_fields);
   add(tracing::residual_fields, tracing::trace_fields, tracing::finding_fields, tracing::size_fields,
-      tracing::candidate_fields, tracing::limit_fields, tracing::rms_fields, tracing::noise_fields, tracing::lack_of_fit_fields,
-      tracing::anomalous_block_fields, tracing::outlier_fields);
+      tracing::candidate_fields, tracing::limit_fields, tracing::rms_fields, tracing::indication_error_fields,
+      tracing::noise_fields, tracing::lack_of_fit_fields, tracing::anomalous_block_fields, tracing::outlier_fields);
   return all;
 }
 

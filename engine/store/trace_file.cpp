@@ -186,6 +186,7 @@ void write_trace_group(hid_t file, const Trace& t) {
   const hdf5::Handle group = hdf5::create_group(file, "trace");
   write_attributes(group, trace_fields, t);
   write_sizes_of_noise(group, t.noise, t.rms);
+  if (!t.of_indications.empty()) write_table(file, indication_error_fields, t.of_indications);
   write_repeats(file, group, t);
   write_numbered(group, "findings", t.findings, write_finding);
   if (!t.candidates.empty()) write_table(file, candidate_fields, t.candidates);

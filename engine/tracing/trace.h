@@ -118,6 +118,12 @@ struct Rms {
   std::string holdout; ///< the hold-out: "setup 3, 4", "each block left out in turn", "none: one block"
 };
 
+/// The root mean squares of one of several indications, SI; degrees of freedom count as in those of all.
+struct IndicationError {
+  std::string name, unit, si_unit;
+  double before = Rms::none, after = Rms::none, holdout_before = Rms::none, holdout_after = Rms::none;
+};
+
 /// One reading of one indication.
 struct Row {
   std::size_t reading = 0, indication = 0;
@@ -222,6 +228,7 @@ struct Trace {
   std::vector<Finding> findings;
   double p_anything = 1; ///< p-value of the whole search
   Rms rms;
+  std::vector<IndicationError> of_indications; ///< where there are several
   Noise noise;
   LackOfFit lack_of_fit;
   std::vector<AnomalousBlock> anomalous_blocks;

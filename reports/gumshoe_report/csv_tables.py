@@ -127,6 +127,7 @@ def trace(t):
             "compensation": [{"finding": k + 1, **one} for k, f in enumerate(t.findings) for table in f.tables for one in compensation.lines(table)],
             "candidates": [line("trace/candidates", c) for c in t.candidates],
             "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
+            "of_indications": [line("trace/of_indications", e) for e in t.of_indications],
             "anomalous_blocks": [line("trace/anomalous_blocks", b) for b in t.anomalous_blocks],
             "outliers": [line("trace/outliers", o) for o in t.outliers],
             "residuals": [{"reading": row.reading + 1, "indication": row.indication, "order": row.order, "block": row.block,

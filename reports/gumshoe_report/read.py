@@ -112,6 +112,7 @@ def trace(file):
         **attributes(group), rms=types.SimpleNamespace(**attributes(group["rms"])),
         noise=types.SimpleNamespace(**attributes(group["noise"])),
         lack_of_fit=types.SimpleNamespace(**attributes(group["lack_of_fit"]), depends_on=texts(group["lack_of_fit"], "depends_on")),
+        of_indications=rows(group.get("of_indications"), "indication"),
         anomalous_blocks=rows(group.get("anomalous_blocks"), "anomalous_block"),
         outliers=rows(group.get("outliers"), "outlier"),
         findings=[finding(group["findings"][k]) for k in sorted(group.get("findings", ()))],

@@ -252,6 +252,14 @@ class Trace:
         add("worst point", r.worst_point, r.worst_point_before, r.worst_point_after)
         add("in sample", "training data: used for the search and the fit, so too optimistic", r.before, r.after,
             noise(r.noise, r.noise_low, r.noise_high))
+        for e in self.t.of_indications:
+            apart = math.isfinite(e.holdout_after)
+            was, now = (e.holdout_before, e.holdout_after) if apart else (e.before, e.after)
+            unit, factor = shown_unit(e, max(was, now))
+            places = decimals(factor * max(was, now))
+            rows.append(types.SimpleNamespace(
+                what=f"{e.name}, {'hold-out' if apart else 'in sample'}{unit_text(unit) and f' ({unit_text(unit)})'}", note="",
+                before=fixed(factor * was, places), after=fixed(factor * now, places), noise=""))
         return rows
 
     def candidates(self, ranked=None):

@@ -211,6 +211,10 @@ class Page(Made):
         said = self.said["lack_of_fit"]
         self.assertEqual((said["verdict"], said["lack_of_fit"]["depends_on"]), ("lack_of_fit", ["feed", "rod"]))
         self.assertEqual([b["name"] for b in said["anomalous_blocks"]], ["setup 3"])
+        self.assertEqual([(e["name"], e["unit"]) for e in said["of_indications"]], [("spindle_z", "um"), ("pitch", "mrad")])
+        self.assertAlmostEqual(said["of_indications"][1]["holdout_before"], 0.031)
+        self.assertAlmostEqual(float(self.table("lack_of_fit", "of_indications")[1]["holdout_after"]), 0.03)
+        self.assertIn("pitch, hold-out (µrad)31", text)
         self.assertEqual([(o["block"], o["weight"]) for o in said["outliers"]], [("setup 1", 0.21)])
         self.assertEqual(self.table("lack_of_fit", "outliers")[0]["reading"], "reading 7 (setup 1, rod 1)")
         with h5py.File(self.file("lack_of_fit")) as file:

@@ -58,6 +58,51 @@ class Units(InFolder):
             self.assertEqual(set(re.findall(r"[0-9] ([num]?m)\b", said)), {shown})
             self.assertNotRegex(said, r"\de[+-]?\d+ [nu]?m")
 
+    def test_errors_of_several_indications_have_their_own_units(self):
+        """Position in um and pitch in arcsec, of which the pitch alone changes with the direction."""
+        draw = random.Random(4)
+        rows = ["cycle,pos_mm,dir,x_um,pitch"]
+        for cycle in range(1, 7):
+            for direction in (1, -1):
+                rows += [f"{cycle},{pos},{direction},{2 + draw.gauss(0, 0.3):.3f},{0.6 * direction + draw.gauss(0, 0.2):.3f}"
+                         for pos in range(0, 501, 50)]
+        (self.folder / "y.csv").write_text("\n".join(rows) + "\n")
+        (self.folder / "y.toml").write_text(SCENARIO[:SCENARIO.index("[model.ind")] + """[model.indications]
+x = "x0"
+pitch = "p0"
+[data]
+file = "y.csv"
+labels = { cycle = "cycle" }
+units = { pos_mm = "mm", x_um = "um", pitch = "arcsec" }
+[data.conditions]
+position = "pos_mm"
+direction = "dir"
+[quantities]
+x0 = { estimated = true, value = "0 um" }
+p0 = { estimated = true, value = "0 arcsec" }
+[indications]
+x = { readings = "x_um", u = "0.3 um" }
+pitch = { readings = "pitch", u = "0.2 arcsec" }
+[trace]
+blocks = "cycle"
+""")
+        run = gumshoe("trace", "y.toml", "--draws", "99", "--json", "v.json", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads((self.folder / "v.json").read_text())
+        self.assertIn("An unknown effect changes the readings of pitch with direction.", v["plain"])
+        x, pitch = v["of_indications"]
+        self.assertEqual((x["unit"], pitch["unit"]), ("um", "arcsec"))
+        # 22 held-out readings: s scatters by 15 %; the direction adds 0.6 arcsec to 0.2 arcsec.
+        for key, size, expected in (("holdout_before", x, 0.3), ("holdout_after", x, 0.3), ("holdout_before", pitch, 0.632),
+                                    ("holdout_after", pitch, 0.2)):
+            self.assertAlmostEqual(size[key] / expected, 1, delta=0.5, msg=key)
+        self.assertRegex(run.stdout, r"\nThat of pitch falls from 0\.[56]\d* arcsec to 0\.[12]\d* arcsec\.\n")
+        self.assertRegex(run.stdout, r"\n  hold-out: pitch, arcsec +0\.\d+ +0\.\d+\n")
+        # Together they give the error of all, where the pitch counts by its noise.
+        for key in ("before", "after", "holdout_before", "holdout_after"):
+            whole = v["rms"][key] * 1e6
+            self.assertAlmostEqual(math.hypot(x[key], 1.5 * pitch[key]) / math.sqrt(2) / whole, 1, delta=1e-6, msg=key)
+
     def test_only_what_counts_readings_is_called_so(self):
         """A wave of 12 readings in decimal years, by the number of the reading, and by the file's order alone."""
         for column, trace, period in (("t", 'order = "t"', 1), ("n", 'order = "n"', 12), (None, "", 12)):

@@ -233,6 +233,8 @@ Traced lack_of_fit() {
   trace.rms.replicate_floor = noise_u, trace.rms.replicate_floor_low = 0.8 * noise_u;
   trace.rms.replicate_floor_high = 1.3 * noise_u;
   trace.rms.holdout_noise_high = 0.9 * trace.rms.holdout_after;
+  trace.of_indications = {{"spindle_z", "um", "m", 4 * um, 3 * um, 5 * um, 3.2 * um},
+                          {"pitch", "mrad", "rad", 0.02e-3, 0.02e-3, 0.031e-3, 0.03e-3}};
   trace.lack_of_fit = {true, 0.002, 2.9 * um, {"feed", "rod"}, 12, 40};
   trace.anomalous_blocks = {{"setup 3", 0.004, 5.5 * um, 0.6 * um}};
   trace.outliers = {{"reading 7 (setup 1, rod 1)", "setup 1", "spindle_z", "mm", "m", -9.1 * um, 0.21}};

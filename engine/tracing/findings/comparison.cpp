@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "propagation/experiment.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/errors.h"
@@ -90,6 +91,7 @@ public:
                                            : "each block left out in turn; the search has used these data";
     const bool refused = !blocks.rows.empty() && hold_out_blocks(blocks);
     fill_rows(before.left, refused ? before.left : after.left, refused ? base_ : after_);
+    if (c_.observations.indications > 1) fill_indications();
     return refused;
   }
 
@@ -330,6 +332,40 @@ private:
     }
     std::ranges::stable_sort(out_.outliers, {}, &Outlier::weight);
     out_.noise.outliers = static_cast<int>(out_.outliers.size());
+  }
+
+  /// Each in its own unit, larger than the root of its mean square as the whole is.
+  void fill_indications() {
+    const auto cards = c_.experiment.model().card->indications;
+    for (const VariableCard& card : cards)
+      out_.of_indications.push_back({std::string(card.name), std::string(card.unit), std::string(card.si_unit)});
+    const auto fill = [&](double whole, double IndicationError::*member, const Vector& count_as, const auto& residual) {
+      const Index indications = count_as.size();
+      Vector squares = Vector::Zero(indications), n = squares;
+      for (Index i = 0; i < index(out_.rows.size()); ++i) {
+        const double r = residual(i);
+        if (!std::isfinite(r)) continue;
+        squares[i % indications] += r * r;
+        n[i % indications] += 1;
+      }
+      const double mean = count_as.cwiseAbs2().dot(squares) / n.sum();
+      for (Index k = 0; k < indications; ++k)
+        out_.of_indications[index(k)].*member = mean > 0 ? whole * std::sqrt(squares[k] / n[k] / mean) : squares[k];
+    };
+    const auto in_sample = [&](double Row::*member) {
+      return [this, member](Index i) { return out_.rows[index(i)].held_out ? Rms::none : out_.rows[index(i)].*member; };
+    };
+    using E = IndicationError;
+    const Vector first_before = in_first(c_.observations, base_.design),
+                 first_after = in_first(c_.observations, after_.design);
+    fill(out_.rms.before, &E::before, first_before, in_sample(&Row::before));
+    fill(out_.rms.after, &E::after, first_after, in_sample(&Row::after));
+    for (IndicationError& e : out_.of_indications) e.unit = units::error_unit(e.unit, e.si_unit, e.before);
+    if (!scored_before_.scored()) return;
+    for (const auto& [scores, whole, member] :
+         {std::tuple{&scored_before_, out_.rms.holdout_before, &E::holdout_before},
+          {&scored_after_, out_.rms.holdout_after, &E::holdout_after}})
+      fill(whole, member, scores->in_first, [&](Index i) { return scores->residual[i]; });
   }
 
   /// None whose weight is shown as 1.00.

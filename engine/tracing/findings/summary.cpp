@@ -67,6 +67,13 @@ std::string part_alone(const Finding& f) {
   return f.depends_on[1] + " " + f.described_by.substr(product.size());
 }
 
+/// The indication that a shape moves, where there are several; empty: all, or the only one.
+std::string indication_of(const Trace& t, const Finding& f) {
+  for (const IndicationError& e : t.of_indications)
+    if (f.described_by.ends_with(" of " + e.name)) return e.name;
+  return {};
+}
+
 /// What may be there in place of scatter: the other members of its finding, if it has any. In place of that of single
 /// readings these are sizes with which readings jump.
 std::string in_its_place(const Finding& f) {
@@ -81,7 +88,9 @@ std::string in_its_place(const Finding& f) {
   return shape == on ? on + " is there" : "the readings follow " + on;
 }
 
-std::string what_was_found(const Finding& f) {
+/// @param of  indication_of
+std::string what_was_found(const Finding& f, const std::string& of) {
+  const std::string readings = of.empty() ? "the readings" : "the readings of " + of;
   const std::string size = size_of(f);
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
   switch (f.kind) {
@@ -110,18 +119,18 @@ std::string what_was_found(const Finding& f) {
       return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
                          depends_on);
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
-      return fmt::format("Something changed after {}: from then on the readings differ by a constant.", reading);
+      return fmt::format("Something changed after {}: from then on {} differ by a constant.", reading, readings);
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
-      return fmt::format("Something came and went about {}: for a while the readings differ.", pulse);
+      return fmt::format("Something came and went about {}: for a while {} differ.", pulse, readings);
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
-      return fmt::format("Something changed about {}, not at once: after that the readings differ by a constant.",
-                         reading);
+      return fmt::format("Something changed about {}, not at once: after that {} differ by a constant.", reading,
+                         readings);
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
         f.described_by.starts_with(step) && f.described_by.find(f.depends_on[0] + " ") != std::string::npos)
       return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
-    return fmt::format("An unknown effect changes the readings {}with {}.",
+    return fmt::format("An unknown effect changes {} {}with {}.", readings,
                        f.described_by.starts_with("wave:") ? "periodically " : "", depends_on);
   }
   return {};
@@ -196,6 +205,20 @@ std::string what_to_do(const std::vector<Finding>& found, const Rms& r, bool unc
   }
   return fmt::format("In the training data the error {} {}; no readings were held out to check.",
                      change(r.before, r.after, r), with);
+}
+
+/// What becomes of the error of the one indication that a finding moves; none if it moves all.
+std::vector<std::string> error_of_indication(const Trace& t, const Finding& f) {
+  for (const IndicationError& e : t.of_indications) {
+    if (e.name != indication_of(t, f) || !std::isfinite(e.holdout_after)) continue;
+    Rms own;
+    own.unit = e.unit;
+    own.si_unit = e.si_unit;
+    own.before = e.before;
+    own.after = e.after;
+    return {fmt::format("That of {} {}.", e.name, change(e.holdout_before, e.holdout_after, own))};
+  }
+  return {};
 }
 
 std::string in_95(double low, double high, const Rms& r) {
@@ -278,7 +301,7 @@ std::vector<std::string> verdict_in_words(const Trace& t) {
     out = {"More than noise is left, and the readings jump with sizes that were tried: the search may not have found "
            "the right size.",
            "Declare these sizes as other measurements give them, and trace again."};
-    if (!t.findings.empty()) out.push_back(what_was_found(t.findings.front()));
+    if (!t.findings.empty()) out.push_back(what_was_found(t.findings.front(), indication_of(t, t.findings.front())));
   } else if (!t.findings.empty()) {
     std::vector<Finding> stand;
     const Finding* rejected = nullptr;
@@ -288,9 +311,10 @@ std::vector<std::string> verdict_in_words(const Trace& t) {
       else if (!rejected)
         rejected = &f;
     if (!stand.empty()) {
-      out = {what_was_found(stand.front())};
+      out = {what_was_found(stand.front(), indication_of(t, stand.front()))};
       if (stand.size() > 1) out.push_back(what_else_was_found(stand));
       out.push_back(what_to_do(stand, r, t.unconfirmed));
+      if (stand.size() == 1) std::ranges::move(error_of_indication(t, stand.front()), std::back_inserter(out));
     }
     if (rejected) {
       out.push_back(what_was_rejected(*rejected));

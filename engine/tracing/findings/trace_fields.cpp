@@ -104,6 +104,17 @@ constexpr Field<Rms> rms[] = {
     {"share_removed", of<&Rms::share_removed>, one, "(before^2 - after^2) / (before^2 - floor^2) of the hold-out readings; the floor is replicate_floor, else the declared noise", in_json},
     {"holdout", of<&Rms::holdout>, one, "description of the hold-out", in_json}};
 
+using E = IndicationError;
+constexpr Field<E> indication_error[] = {
+    {"name", of<&E::name>, one, "indication", in_both},
+    {"units", nullptr, units, "", {"unit", "unit"}},
+    {"before", of<&E::before>, difference, "root mean square of its residuals in the training data, in sample",
+     in_both},
+    {"after", of<&E::after>, difference, "the same with the findings added to the model", in_both},
+    {"holdout_before", of<&E::holdout_before>, difference, "root mean square of its residuals in the hold-out",
+     in_both},
+    {"holdout_after", of<&E::holdout_after>, difference, "the same with the findings added to the model", in_both}};
+
 constexpr Field<Noise> noise[] = {
     {"scale", of<&Noise::scale>, one,
      "factor on the declared standard uncertainties; if none is declared, standard uncertainty of one reading, SI",
@@ -167,6 +178,8 @@ constinit const Fields<SizeRow> size_fields{"trace/findings/<k>/quantities", "qu
 constinit const Fields<RankedCandidate> candidate_fields{"trace/candidates", "candidate", candidates, "candidates"};
 constinit const Fields<DetectionLimit> limit_fields{"trace/detection_limits", "limit", limits, "detection_limits"};
 constinit const Fields<Rms> rms_fields{"trace/rms", "", rms};
+constinit const Fields<IndicationError> indication_error_fields{"trace/of_indications", "indication", indication_error,
+                                                                "of_indications"};
 constinit const Fields<Noise> noise_fields{"trace/noise", "", noise};
 constinit const Fields<LackOfFitRow> lack_of_fit_fields{"trace/lack_of_fit", "", lack_of_fit};
 constinit const Fields<AnomalousBlockRow> anomalous_block_fields{"trace/anomalous_blocks", "anomalous_block", anomalous_block, "anomalous_blocks"};

@@ -29,6 +29,7 @@ extern const analysis::Fields<SizeRow> size_fields;
 extern const analysis::Fields<RankedCandidate> candidate_fields;
 extern const analysis::Fields<DetectionLimit> limit_fields;
 extern const analysis::Fields<Rms> rms_fields;                  ///< attributes
+extern const analysis::Fields<IndicationError> indication_error_fields;
 extern const analysis::Fields<Noise> noise_fields;              ///< attributes, in the unit of Rms
 extern const analysis::Fields<LackOfFitRow> lack_of_fit_fields; ///< attributes
 extern const analysis::Fields<AnomalousBlockRow> anomalous_block_fields;

@@ -97,6 +97,8 @@ std::string verdict_json(const Trace& t) {
            {"detection_limits", limits_json(t.detection_limits)}};
   add_json(out, trace_fields, t);
   const std::string unit = t.rms.si_unit.empty() ? "1" : t.rms.si_unit; // empty where nothing was fitted
+  if (!t.of_indications.empty()) out["of_indications"] = Json::array();
+  for (const IndicationError& e : t.of_indications) out["of_indications"].push_back(json(indication_error_fields, e));
   out["lack_of_fit"] = json(lack_of_fit_fields, LackOfFitRow{t.lack_of_fit, unit, unit});
   out["lack_of_fit"]["depends_on"] = t.lack_of_fit.depends_on;
   out["anomalous_blocks"] = Json::array();
