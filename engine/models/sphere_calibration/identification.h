@@ -43,7 +43,7 @@ template <class T> struct Identified {
 };
 
 template <class T> class Identification : public PoseRows<T> {
-  using PoseRows<T>::rows_, PoseRows<T>::linearise, PoseRows<T>::undisturbed;
+  using PoseRows<T>::rows_, PoseRows<T>::linearise, PoseRows<T>::undisturbed, PoseRows<T>::moved_to;
 
 public:
   using PoseRows<T>::poses, typename PoseRows<T>::Row;
@@ -55,14 +55,15 @@ public:
   /// Plane fits for the orientations; probe and C axis from pattern I, then the B axis from pattern II (eqs 4.27 and
   /// 4.40, which are linear in the lengths). @param declared theta
   Identified<T> sequential(const T* declared) {
-    Identified<T> out = begin(declared);
-    constexpr bool of_C[lengths] = {true, true, true, false, false, true, true};
-    constexpr bool of_B[lengths] = {false, false, false, true, true, false, false};
-    constexpr bool all[lengths] = {true, true, true, true, true, true, true};
-    if (!patterns_.I.empty()) solve_lengths(patterns_.I, of_C, out);
-    if (!patterns_.II.empty()) solve_lengths(patterns_.II, patterns_.I.empty() ? all : of_B, out);
-    out.converged = T(0.0) == T(0.0);
-    judge(normal_equations(out.theta, all_), out);
+    Identified<T> out = in_sequence(declared);
+    // What brings the points of a pattern into one plane is then known from the machine found.
+    const auto varies = held_varies();
+    if (!num::any(varies)) return out;
+    const Identified<T> again = in_sequence(out.theta);
+    for (int j = 0; j < unknowns; ++j) out.theta[j] = num::select(varies, again.theta[j], out.theta[j]);
+    for (T Identified<T>::*figure : {&Identified<T>::residual_rms, &Identified<T>::rank, &Identified<T>::condition})
+      out.*figure = num::select(varies, again.*figure, out.*figure);
+    out.finite = out.residual_rms < T(1e300);
     return out;
   }
 
@@ -95,6 +96,26 @@ public:
   }
 
 private:
+  Identified<T> in_sequence(const T* declared) {
+    Identified<T> out = begin(declared);
+    constexpr bool of_C[lengths] = {true, true, true, false, false, true, true};
+    constexpr bool of_B[lengths] = {false, false, false, true, true, false, false};
+    constexpr bool all[lengths] = {true, true, true, true, true, true, true};
+    if (!patterns_.I.empty()) solve_lengths(patterns_.I, of_C, out);
+    if (!patterns_.II.empty()) solve_lengths(patterns_.II, patterns_.I.empty() ? all : of_B, out);
+    out.converged = T(0.0) == T(0.0);
+    judge(normal_equations(out.theta, all_), out);
+    return out;
+  }
+
+  /// Whether the axis that a pattern holds stands elsewhere in some of its poses: it has an error of its own in each.
+  auto held_varies() const {
+    auto out = T(0.0) != T(0.0);
+    for (const std::size_t i : patterns_.I) out = out || (poses[i].at_B != poses[patterns_.I[0]].at_B);
+    for (const std::size_t i : patterns_.II) out = out || (poses[i].at_C != poses[patterns_.II[0]].at_C);
+    return out;
+  }
+
   /// Declared lengths, orientations by the planes of the two patterns (eqs 4.15, 4.16 and 4.28); as declared where
   /// there is no plane.
   Identified<T> begin(const T* declared) {
@@ -104,7 +125,7 @@ private:
     const T one(1.0), zero(0.0);
     if (patterns_.II.size() > 2) {
       Vector3<T> n;
-      const auto plane = normal_of(patterns_.II, declared, n);
+      const auto plane = normal_of(patterns_.II, declared, &Pose<T>::at_C, n);
       n = num::select(n.y < zero, -one, one) * n;
       const auto upright = plane && (n.y > T(0.1));
       e[Q::E_A0B] = num::select(upright, num::atan2(n.z, n.y), e[Q::E_A0B]);
@@ -112,7 +133,7 @@ private:
     }
     if (patterns_.I.size() > 2) {
       Vector3<T> n;
-      const auto plane = normal_of(patterns_.I, declared, n);
+      const auto plane = normal_of(patterns_.I, declared, &Pose<T>::at_B, n);
       // Seen before B turned it.
       const Pose<T>& pose = poses[patterns_.I[0]];
       const auto lines = directions(Orientation<T>{e[Q::E_A0B], e[Q::E_C0B], e[Q::E_A0C], e[Q::E_B0C]});
@@ -126,7 +147,8 @@ private:
   }
 
   /// Normal of the plane with the least squares of distances; false where the points lie on a line.
-  auto normal_of(const std::vector<std::size_t>& which, const T* declared, Vector3<T>& normal) {
+  /// @param held  angle of the axis that the pattern holds: points are brought to where it stands in the first pose
+  auto normal_of(const std::vector<std::size_t>& which, const T* declared, T Pose<T>::*held, Vector3<T>& normal) {
     const auto lines =
         directions(Orientation<T>{declared[Q::E_A0B], declared[Q::E_C0B], declared[Q::E_A0C], declared[Q::E_B0C]});
     std::vector<Vector3<T>>& points = points_;
@@ -134,6 +156,8 @@ private:
     Vector3<T> middle;
     for (const std::size_t i : which) {
       points.push_back(undisturbed(poses[i], declared, lines));
+      if (num::any(poses[i].*held != poses[which[0]].*held))
+        points.back() = points.back() + moved_to(poses[i], held, poses[which[0]].*held, declared, lines);
       middle = middle + points.back();
     }
     middle = T(1.0 / static_cast<double>(which.size())) * middle;

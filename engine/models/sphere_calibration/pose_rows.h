@@ -108,6 +108,19 @@ protected:
            (h.probe - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at_B, pose.at_C)));
   }
 
+  /// By how much the probe of the machine theta moves where one axis turns from where it stands to `angle`.
+  static Vector3<T> moved_to(const Pose<T>& pose, T Pose<T>::*axis, const T& angle, const T* theta,
+                             const Directions<T>& lines) {
+    T length[lengths];
+    actual(theta, pose, length);
+    Pose<T> there = pose;
+    there.*axis = angle;
+    const auto probe = [&](const Pose<T>& at) {
+      return sphere_calibration::probe_from_origin(length, exact_turns(lines, at.at_B, at.at_C));
+    };
+    return probe(there) - probe(pose);
+  }
+
   /// Derivative of the slope's tangent, over the length of (slope, slope, 1).
   static T slope(const T& along, const T& main) {
     const T tangent = along / main;
