@@ -60,8 +60,10 @@ private:
         if (o % measurands == 0) all = differentiate(e_, reading, e_.point(reading, variates.data()), false);
         const Derivatives& at = all[o % measurands];
         if (at.status != Status::ok) continue;
-        for (std::size_t k = 0; k < reach_[o].size(); ++k)
-          out[i * numbers_ + number(o, k)] = at.first[reach_[o][k].quantity];
+        for (std::size_t k = 0; k < reach_[o].size(); ++k) {
+          double& slope = out[i * numbers_ + number(o, k)] = 0;
+          for (const std::size_t q : reach_[o][k].quantities) slope += at.first[q];
+        }
       }
     }
   }

@@ -133,8 +133,10 @@ std::vector<Derivatives> of_responses(const propagation::Responses& all, const P
 bool needs_second(const propagation::Experiment& e, std::size_t reading) {
   std::vector<double> u(e.columns_at(reading).size(), 0.0);
   std::vector<bool> reaches(e.plan().variates.size(), false);
-  for (const auto& [v, q] : variates_reaching(e, reading)) {
-    u[q] = std::hypot(u[q], e.plan().variates[v].distribution.standard_uncertainty());
+  for (const auto& [v, moved] : variates_reaching(e, reading)) {
+    const double of_variate = e.plan().variates[v].distribution.standard_uncertainty();
+    for (const std::size_t q : moved) u[q] = std::hypot(u[q], of_variate);
+    if (e.measurands().size() == 1 && moved.size() > 1 && of_variate > 0) return false;
     reaches[v] = true;
   }
   for (const auto& group : e.plan().copulas)

@@ -156,10 +156,10 @@ Derivatives linearise(const propagation::Experiment& e, Slopes& slopes, std::siz
   return d;
 }
 
-/// The row of one variate, which is part of quantity q at the reading.
-Contribution contribution_of(const propagation::Experiment& e, std::size_t v, std::size_t q, double estimate,
+/// The row of one variate: it moves all quantities that it is part of at the reading.
+Contribution contribution_of(const propagation::Experiment& e, const Reach& reach, const std::vector<double>& point,
                              const Derivatives& d) {
-  const auto& variate = e.plan().variates[v];
+  const auto& variate = e.plan().variates[reach.variate];
   const auto& quantity = e.scenario().quantities[variate.quantity];
   const auto& component = quantity.entries[variate.entry].components[variate.component];
   Contribution c;
@@ -167,14 +167,16 @@ Contribution contribution_of(const propagation::Experiment& e, std::size_t v, st
   c.quantity = quantity.name;
   c.unit = quantity.unit;
   c.si_unit = quantity.si_unit;
-  c.estimate = estimate;
+  c.estimate = point[reach.quantities[0]];
   c.standard_uncertainty = variate.distribution.standard_uncertainty();
   c.evaluation = component.evaluation;
   c.distribution = family_name(variate.distribution.family);
   c.degrees_of_freedom = component.degrees_of_freedom;
-  c.differentiable = d.differentiable[q];
-  c.sensitivity = d.first[q];
-  c.contribution = std::fabs(d.first[q]) * c.standard_uncertainty;
+  for (const std::size_t q : reach.quantities) {
+    c.differentiable = c.differentiable && d.differentiable[q];
+    c.sensitivity += d.first[q];
+  }
+  c.contribution = std::fabs(c.sensitivity) * c.standard_uncertainty;
   c.monte_carlo_share = nan;
   c.scope = scope_text(component);
   c.source = component.source;
@@ -211,16 +213,19 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
 
   std::vector<CentralMoments> moments(point.size());
   std::vector<Term> terms;
-  for (const auto& [v, q] : variates_reaching(e, slopes.reading())) {
-    const Contribution c = contribution_of(e, v, q, point[q], d);
+  bool several = false; // quantities that one variate moves: they are not independent
+  for (const Reach& reach : variates_reaching(e, slopes.reading())) {
+    const Contribution c = contribution_of(e, reach, point, d);
     if (!c.differentiable && c.standard_uncertainty > 0) b.applicable = false;
-    const double signed_contribution = c.differentiable && b.applicable ? d.first[q] * c.standard_uncertainty : 0;
+    const double signed_contribution = c.differentiable && b.applicable ? c.sensitivity * c.standard_uncertainty : 0;
     if (!std::isfinite(signed_contribution) && c.standard_uncertainty > 0 && std::isfinite(c.standard_uncertainty)) {
       b.applicable = false;
       b.reason += fmt::format("{}the contribution of {} is not finite", b.reason.empty() ? "" : "; ", c.quantity);
     }
-    terms.push_back({v, signed_contribution, c.degrees_of_freedom});
-    moments[q].add(e.plan().variates[v].distribution, c.standard_uncertainty);
+    terms.push_back({reach.variate, signed_contribution, c.degrees_of_freedom});
+    for (const std::size_t q : reach.quantities)
+      moments[q].add(e.plan().variates[reach.variate].distribution, c.standard_uncertainty);
+    several = several || (reach.quantities.size() > 1 && c.standard_uncertainty > 0);
     b.contributions.push_back(c);
   }
   if (b.reason.empty())
@@ -249,7 +254,7 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
   if (combined.unequal)
     b.remark = "no effective degrees of freedom: correlated inputs have different degrees of freedom, and the "
                "Welch-Satterthwaite formula (G.4.1) holds for independent ones; k is the normal quantile";
-  if (combined.correlation != 0)
+  if (combined.correlation != 0 || several)
     b.second_order_uncertainty = b.second_order_bias = nan;
   else
     second_order(b, slopes, measurand, moments);

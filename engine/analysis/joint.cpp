@@ -181,12 +181,11 @@ std::vector<double> law_of_propagation(const std::vector<const Budget*>& budgets
     const Contribution& c = budgets[static_cast<std::size_t>(a)]->contributions[i];
     return c.standard_uncertainty > 0 && c.differentiable ? c.sensitivity * c.standard_uncertainty : 0;
   };
-  std::map<std::size_t, Eigen::VectorXd> of; // by variate: one may be part of several columns
+  std::map<std::size_t, Eigen::VectorXd> of; // by variate
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Eigen::VectorXd y(d);
     for (Eigen::Index a = 0; a < d; ++a) y[a] = signed_contribution(a, i);
-    const auto [at, added] = of.try_emplace(rows[i].variate, y);
-    if (!added) at->second += y;
+    of.emplace(rows[i].variate, std::move(y));
   }
   Matrix v = Matrix::Zero(d, d);
   for (const auto& [variate, y] : of) v += y * y.transpose();

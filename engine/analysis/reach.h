@@ -1,5 +1,6 @@
 #pragma once
-/// Which input draws (variates) the outputs of a reading depend on, and through which quantity.
+/// Which input draws (variates) the outputs of a reading depend on, and through which quantities.
+#include <map>
 #include <vector>
 
 #include "propagation/experiment.h"
@@ -8,16 +9,22 @@ namespace gumshoe::analysis {
 
 struct Reach {
   std::size_t variate;
-  std::size_t quantity; ///< in whose column it is added, with slope one: place in Experiment::point
+  /// In whose columns it is added, with slope one: places in Experiment::point. More than one where the readings of a
+  /// joint evaluation share it.
+  std::vector<std::size_t> quantities;
 };
 
-/// Every pair of a variate and the column that it is part of at a reading, in the order of the columns. A variate stands
-/// twice if it is part of two columns.
+/// The variates that reach the outputs of a reading, in the order of the first columns that they are part of.
 inline std::vector<Reach> variates_reaching(const propagation::Experiment& e, std::size_t reading) {
   std::vector<Reach> found;
+  std::map<std::size_t, std::size_t> at; // place in `found` by variate
   const auto& columns = e.columns_at(reading);
   for (std::size_t q = 0; q < columns.size(); ++q)
-    for (const std::size_t v : e.plan().columns[columns[q]].variates) found.push_back({v, q});
+    for (const std::size_t v : e.plan().columns[columns[q]].variates) {
+      const std::size_t place = at.try_emplace(v, found.size()).first->second;
+      if (place == found.size()) found.push_back({v, {}});
+      found[place].quantities.push_back(q);
+    }
   return found;
 }
 

@@ -36,6 +36,42 @@ class SingleSocket(unittest.TestCase):
         self.assertIsNone(complaint(run), run.stderr)
         self.assertIn(part, run.stderr)
 
+    def test_what_all_stations_share_is_one_contribution(self):
+        """Of the bar's deviation u = 1 um by station and 1 um in all of them. With bars along X, Y, Z and (1, 1, 1) the
+        position along X is 5/6 l_1 - (l_2 + l_3) / 6 + l_4 / sqrt(12), but for 0.03 mm of 150 mm."""
+        at = ["150", "0", "0", "86.6025"]
+        conditions = "\n".join(f"station_{axis} = {[f'{x} mm' for x in at[:3][-k:] + at[:3][:-k] + at[3:]]}" for k, axis in ((3, "x"), (1, "y"), (2, "z")))
+        self.path.with_name("s.toml").write_text(f"""schema = 1
+[model]
+name = "single_socket"
+evaluation = "position"
+[conditions]
+{conditions}
+[indications.length_change]
+readings = ["30 um", "-20 um", "50 um", "34.6 um"]
+components = [ {{ u = "1 um", per = "reading" }}, {{ u = "1 um", per = [] }} ]
+[run]
+samples = 20_000
+[analysis]
+sensitivity = {{ sobol = 8192, dgsm = 256 }}
+""")
+        run = gumshoe("run", "s.toml", "--format", "json", cwd=self.path.parent)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        x = json.loads(run.stdout)[0]
+        own = [5 / 6, -1 / 6, -1 / 6, 12**-0.5]
+        rows = {row["component"]: row for row in x["budget"]}
+        self.assertEqual(list(rows), ["length_change[reading 1]: c1", "length_change: c2"] + [f"length_change[reading {k}]: c1" for k in (2, 3, 4)])
+        variance = sum(c * c for c in own) + sum(own) ** 2
+        for name, c in (("length_change: c2", sum(own)), *((f"length_change[reading {k + 1}]: c1", c) for k, c in enumerate(own))):
+            self.assertAlmostEqual(rows[name]["sensitivity"] * 1e3, c, delta=1e-3, msg=name)
+            self.assertAlmostEqual(rows[name]["share"], c * c / variance, delta=2e-3)
+        self.assertEqual(x["gum"]["correlation_share"], 0)
+        self.assertAlmostEqual(x["gum"]["combined_standard_uncertainty"] * 1e3, variance**0.5, delta=1e-3)
+        # The bound by derivatives, of a linear function of normal inputs the share itself; u^2 of 20,000 samples to 1 %.
+        for name, row in x["dgsm"].items():
+            share = rows[name]["share"]
+            self.assertAlmostEqual(row["bound"], share, delta=0.04 * share + 1e-3, msg=name)
+
     STATION = ["station_x (mm)", "station_y (mm)", "station_z (mm)", "length_change (mm)"]
 
     def test_position_by_hand(self):
