@@ -61,6 +61,8 @@ struct Correlation {
   /// Samples drawn together in an earlier run, which keep their joint distribution: of each quantity, whose
   /// distribution is empirical, the rank of its value in each of them. Empty: tied by the matrix alone.
   std::vector<std::vector<std::uint32_t>> together = {};
+  /// Coefficients that the law of propagation takes, row-major, n x n. Empty: Pearson's of the draws.
+  std::vector<double> law = {};
 };
 
 /// One reading: the mean of `repeats` readouts taken under the same labels and conditions.

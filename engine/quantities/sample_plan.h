@@ -41,7 +41,7 @@ struct CopulaGroup {
   /// By variate: the rank of its value in each sample of an earlier run. One sample is drawn for all. The matrix is a
   /// Gaussian copula's near it, for whatever needs a conditional law; empty: it is the law itself.
   std::vector<std::vector<std::uint32_t>> together;
-  std::vector<double> pearson; ///< coefficients of these samples, row-major; empty: by the copula
+  std::vector<double> pearson; ///< coefficients of these samples, or Correlation::law; empty: by the copula
   bool singular() const { return cholesky.back() == 0; }
   bool multivariate_t() const { return degrees_of_freedom > 0; }
   /// Distribution of W: gamma(nu / 2, 2 / nu).

@@ -151,6 +151,8 @@ private:
     group.cholesky = factor.lower;
     for (std::size_t i = 0; i < n_ && !correlation_.together.empty(); ++i)
       group.together.push_back(correlation_.together[factor.order[i]]);
+    for (std::size_t i = 0; i < n_ * n_ && !correlation_.law.empty(); ++i)
+      group.pearson.push_back(correlation_.law[factor.order[i / n_] * n_ + factor.order[i % n_]]);
     if (!group.together.empty()) group.pearson = pearson_of(group);
     plan_.copulas.push_back(std::move(group));
   }

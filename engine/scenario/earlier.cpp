@@ -13,6 +13,7 @@
 
 #include "base/hash.h"
 #include "quantities/cells.h"
+#include "quantities/copula.h"
 #include "scenario/context.h"
 
 namespace gumshoe::scenario {
@@ -80,15 +81,15 @@ public:
 
   std::vector<quantities::Correlation> find() {
     const std::size_t n = draws_.size();
-    std::vector<double> r(n * n, 0);
+    std::vector<Coefficient> r(n * n);
     for (std::size_t i = 0; i < n; ++i) {
-      r[i * n + i] = 1;
+      r[i * n + i] = {1, 1};
       if (!draws_[i].output) continue;
       check_same(draws_[i]);
       for (std::size_t j = 0; j < n; ++j) {
         if (j == i || (draws_[j].output && j > i)) continue;
-        const double tied = draws_[j].output ? between(draws_[i], draws_[j]) : with_own(draws_[i], draws_[j]);
-        if (tied == 0) continue;
+        const Coefficient tied = draws_[j].output ? between(draws_[i], draws_[j]) : with_own(draws_[i], draws_[j]);
+        if (tied.of_draws == 0) continue;
         r[i * n + j] = r[j * n + i] = tied;
         join(i, j);
       }
@@ -102,7 +103,10 @@ public:
       quantities::Correlation c;
       for (const std::size_t i : members) {
         c.quantities.push_back(draws_[i].name);
-        for (const std::size_t j : members) c.matrix.push_back(r[i * n + j]);
+        for (const std::size_t j : members) {
+          c.matrix.push_back(r[i * n + j].of_draws);
+          c.law.push_back(r[i * n + j].of_law);
+        }
       }
       c.together = ranks_together(members);
       context_.note(fmt::format("{}: {}", fmt::join(c.quantities, ", "),
@@ -114,6 +118,11 @@ public:
   }
 
 private:
+  struct Coefficient {
+    double of_draws = 0; ///< of the copula
+    double of_law = 0;   ///< of the law of propagation
+  };
+
   /// By output of one file with samples: the rank of its value, sample by sample, where none of them failed. Empty if
   /// the members are not all of that kind.
   std::vector<std::vector<std::uint32_t>> ranks_together(const std::vector<std::size_t>& members) const {
@@ -157,16 +166,40 @@ private:
   }
   static double u_of(const Draw& d) { return d.stated->distribution.standard_uncertainty(); }
 
-  double between(const Draw& a, const Draw& b) {
+  /// By covariances: of the draws and of the uncertainties.
+  static Coefficient coefficient(const Draw& a, const Draw& b, double of_draws, double of_law) {
+    const auto &x = a.stated->distribution, &y = b.stated->distribution;
+    const double variances = x.variance() * y.variance();
+    Coefficient out;
+    out.of_law = std::clamp(of_law / (u_of(a) * u_of(b)), -1.0, 1.0);
+    if (!std::isfinite(variances)) { // of a t with few degrees of freedom: its scale
+      out.of_draws = out.of_law;
+      return out;
+    }
+    out.of_draws = std::clamp(of_draws / std::sqrt(variances), -1.0, 1.0);
+    try {
+      using quantities::Correlation;
+      out.of_draws = quantities::copula_coefficient(Correlation::Kind::pearson, out.of_draws, x, y, a.name);
+    } catch (const InputError&) { // beyond what two such shapes can have: as near as they come
+    }
+    return out;
+  }
+
+  Coefficient between(const Draw& a, const Draw& b) {
     const bool one_file = a.stated->earlier->file == b.stated->earlier->file;
-    if (one_file && !a.output->samples.empty() && !b.output->samples.empty())
-      return correlation_of_scores(a.output->samples, b.output->samples);
-    double covariance = 0;
+    if (one_file && !a.output->samples.empty() && !b.output->samples.empty()) {
+      const double scores = correlation_of_scores(a.output->samples, b.output->samples);
+      return {scores, quantities::pearson_coefficient(scores, a.stated->distribution, b.stated->distribution)};
+    }
+    double covariance = 0, of_draws = 0;
     for (const Share& s : a.output->shares)
       for (const Share& t : b.output->shares) {
         if (s.component != t.component) continue;
         if (one_file || (names(a, s.quantity) && names(b, s.quantity))) {
-          if (!std::isnan(s.contribution * t.contribution)) covariance += s.contribution * t.contribution;
+          if (const double both = s.contribution * t.contribution; !std::isnan(both)) {
+            covariance += both;
+            of_draws += both * s.spread * t.spread;
+          }
         } else if (s.evaluation == 'B' && t.evaluation == 'B' && s.u > 0 && s.u == t.u &&
                    s.distribution == t.distribution) {
           context_.note(
@@ -175,11 +208,11 @@ private:
                           a.name, b.name, s.component, s.quantity));
         }
       }
-    return std::clamp(covariance / (u_of(a) * u_of(b)), -1.0, 1.0);
+    return coefficient(a, b, of_draws, covariance);
   }
 
-  double with_own(const Draw& a, const Draw& own) {
-    if (!names(a, own.quantity)) return 0;
+  Coefficient with_own(const Draw& a, const Draw& own) {
+    if (!names(a, own.quantity)) return {};
     for (const Share& s : a.output->shares) {
       if (s.component != own.component || std::isnan(s.contribution)) continue;
       if (std::abs(s.u - u_of(own)) > 1e-6 * s.u) {
@@ -187,11 +220,12 @@ private:
                               fmt::format("{}: '{}' has u = {:.6g} here and {:.6g} in {} (SI)", a.name, own.component,
                                           u_of(own), s.u, a.stated->earlier->file),
                               "one error has one uncertainty", "state it alike, or leave it out of same");
-        return 0;
+        return {};
       }
-      return std::clamp(s.contribution / u_of(a), -1.0, 1.0);
+      return coefficient(a, own, s.contribution * s.spread * std::sqrt(own.stated->distribution.variance()),
+                         s.contribution * u_of(own));
     }
-    return 0;
+    return {};
   }
 
   /// Every name in `same` is in the budget, and in another result or in the scenario as well.

@@ -26,6 +26,7 @@ struct EarlierOutput {
     double u = 0;            ///< u_i, SI
     char evaluation = 'B';
     std::string distribution;
+    double spread = 1; ///< standard deviation of its draws over u_i: above 1 of a t
   };
   std::string name, unit, si_unit;
   double estimate = 0;
@@ -74,6 +75,8 @@ private:
 /// - of different files: by the components of `same` in both budgets, sum of c_i u_i c_j u_j over u_a u_b (JCGM 100,
 /// F.1.2.3);
 /// - with a quantity of this scenario that `same` names: its contribution over u.
+/// Draws are tied by standard deviations, which of a t are larger than the u of the law of propagation; that has its own
+/// coefficients.
 /// Problems: a name in `same` that nothing else has, one that stands here with another u.
 std::vector<quantities::Correlation> tie_results(const std::vector<quantities::InputQuantity>& quantities,
                                                  const Node& document, Context& context);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
 #include "store/stored_results.h"
 #include "store/stored_samples.h"
@@ -72,7 +73,8 @@ scenario::EarlierOutput read_output(const std::string& file, const std::string& 
     }
     for (const analysis::Contribution& c : budget->contributions)
       out.shares.push_back(
-          {c.name, c.quantity, analysis::signed_contribution(c), c.standard_uncertainty, c.evaluation, c.distribution});
+          {c.name, c.quantity, analysis::signed_contribution(c), c.standard_uncertainty, c.evaluation, c.distribution,
+           std::sqrt(analysis::variance_over_scale(c))});
   }
   if (!stored.identity.store_samples) return out;
   require_sound_samples(file);
