@@ -65,12 +65,13 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
     text += fmt::format("; the shortest {} coverage interval is [{}, {}]{}", coverage_text(p),
                         fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {
-    text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}{}", fixed(width(b.expanded_uncertainty), d), unit,
-                        b.coverage_factor,
-                        std::isfinite(b.effective_degrees_of_freedom)
-                            ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
-                            : "",
-                        v.verdict == "validated" ? uncertainty_of_factor(s, b) : "");
+    const double U = width(b.expanded_uncertainty); // to its own two digits (JCGM 100, 7.2.6)
+    text +=
+        fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}{}", fixed(U, decimals_for(U)), unit, b.coverage_factor,
+                    std::isfinite(b.effective_degrees_of_freedom)
+                        ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
+                        : "",
+                    v.verdict == "validated" ? uncertainty_of_factor(s, b) : "");
     if (!b.remark.empty()) text += "; " + b.remark;
     if (v.verdict != "validated") text += fmt::format(" ({} by Monte Carlo)", v.verdict);
   }
@@ -272,8 +273,10 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
       s.run.adaptive.rule == scenario::StoppingRule::fixed && trials >= least && trials < enough)
     r.notes.push_back(
         fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "
-                    "intervals are known to their Monte Carlo standard errors only",
-                    samples.size, enough));
+                    "intervals are {}",
+                    samples.size, enough,
+                    s.run.design == scenario::Design::monte_carlo ? "known to their Monte Carlo standard errors only"
+                                                                  : "uncertain"));
   if (s.run.design != scenario::Design::monte_carlo)
     r.notes.push_back(fmt::format(
         "design {}: its points are not independent, so that no Monte Carlo standard errors are given", r.design));

@@ -62,7 +62,7 @@ public:
         return *figure;
       }
     throw InputError("'" + text_ + "' is not a figure of this result", "or the scenario does not request its study",
-                     "engine/analysis/figures.h lists them");
+                     "the header analysis/figures.h of the program lists them");
   }
 
 private:

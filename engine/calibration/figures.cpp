@@ -30,7 +30,8 @@ analysis::Figure figure(const Estimate& estimate, const propagation::Experiment&
   if (i < n && name.word == "fit.value") return of(parameters[i].value, false);
   if (i < n && name.word == "fit.standard_uncertainty") return of(parameters[i].standard_uncertainty, true);
   if (i < n && j < n && name.word == "fit.correlation") return plain(estimate.correlation[i * n + j]);
-  throw InputError("'" + text + "' is not a figure of this fit", "", "engine/calibration/figures.h lists them");
+  throw InputError("'" + text + "' is not a figure of this fit", "",
+                   "the header calibration/figures.h of the program lists them");
 }
 
 } // namespace gumshoe::calibration

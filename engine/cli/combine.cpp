@@ -52,13 +52,16 @@ std::string verdict(const WeightedMean& m) {
   if (m.consistent()) return "the results are consistent";
   const auto far =
       std::ranges::max_element(m.parts, {}, [](const WeightedPart& p) { return std::fabs(p.normalised_error); });
+  // Two are equally far from their mean, whatever their uncertainties.
+  const std::string which = m.parts.size() == 2
+                                ? "one of the two"
+                                : fmt::format("a result, most likely number {},", far - m.parts.begin() + 1);
   return fmt::format(
-      "the results are not consistent, and U of the mean is too small: a result, most likely number {}, has "
-      "an error that its budget lacks",
-      far - m.parts.begin() + 1);
+      "the results are not consistent, and U of the mean is too small: {} has an error that its budget lacks", which);
 }
 
 void print(const WeightedMean& m, const std::vector<NamedResult>& results) {
+  constexpr double least_p = 1e-6;
   const auto& o = m.mean.output;
   const auto with_unit = [&](double x) { return with_suitable_unit(x, o.unit, o.si_unit); };
   std::cout << fmt::format("{}\n  u = {}; weighted mean of {} results\n", m.mean.certificate,
@@ -72,8 +75,9 @@ void print(const WeightedMean& m, const std::vector<NamedResult>& results) {
                              units::suffix(o.unit), with_unit(p.summary.standard_uncertainty), p.weight,
                              p.normalised_error);
   }
-  std::cout << fmt::format("  chi^2 = {:.2f} ({} degree{} of freedom, p = {}): {}\n", m.chi_squared, m.parts.size() - 1,
-                           m.parts.size() == 2 ? "" : "s", probability_text(m.probability, 1e-6), verdict(m));
+  std::cout << fmt::format("  chi^2 = {:.2f} ({} degree{} of freedom, p {}{}): {}\n", m.chi_squared, m.parts.size() - 1,
+                           m.parts.size() == 2 ? "" : "s", m.probability < least_p ? "" : "= ",
+                           probability_text(m.probability, least_p), verdict(m));
   std::vector<std::string> shared;
   for (const SharedPart& s : m.shared) shared.push_back(s.name);
   if (!shared.empty()) std::cout << fmt::format("  one error in several results: {}\n", fmt::join(shared, ", "));

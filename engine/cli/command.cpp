@@ -82,7 +82,9 @@ std::string date_text(std::time_t moment) {
 
 std::string default_output(const std::string& scenario, const std::string& ending) {
   const std::string name = std::filesystem::path(scenario).stem().string();
-  std::filesystem::create_directories("results");
+  std::error_code failed;
+  if (!std::filesystem::create_directories("results", failed) && failed)
+    throw OutputError("the folder 'results' cannot be made", failed.message(), "name an output elsewhere with --out");
   // `trace` writes NAME.traced.h5 next to NAME.traced.toml, which may be run.
   return "results/" + name + (ending == ".h5" && name.ends_with(".traced") ? ".run" : "") + ending;
 }

@@ -61,7 +61,8 @@ void print_left(const calibration::Compensation& of, const calibration::AppliedT
     return fmt::format("{:.3g} {}", units::from_si(x, unit, of.indication_si_unit, units::Kind::difference), unit);
   };
   for (const auto& left : calibration::left_with(of, table)) {
-    std::cerr << fmt::format("root mean square of {}: {}, with the table {}", left.which, shown(left.before),
+    std::cerr << fmt::format("root mean square of {}{}: {}, with the table {}", left.which,
+                             of.left_out.empty() ? "" : ", less what is left out", shown(left.before),
                              shown(left.with));
     if (left.with > 1.01 * left.without)
       std::cerr << fmt::format(", of which {} is noise and the rest what is left out, interpolated or rounded",
@@ -108,9 +109,10 @@ ExitCode compensate(CompensateOptions o) {
   print_left(table, file.applied);
   const auto& formats = calibration::compensation_formats();
   const auto format = std::ranges::find(formats, o.choice.format, &calibration::CompensationFormat::name);
-  if (!format->check.empty())
-    std::cerr << fmt::format("prove the sign on the machine: {}\n",
-                             o.choice.negate ? format->check_negated : format->check);
+  std::string check(o.choice.negate ? format->check_negated : format->check);
+  if (const auto at = check.find(" mm "); table.position_si_unit == "rad" && at != check.npos)
+    check.replace(at, 4, " deg ");
+  if (!check.empty()) std::cerr << fmt::format("prove the sign on the machine: {}\n", check);
   if (!o.out.empty()) std::cerr << "written: " << o.out << '\n';
   return ExitCode::done;
 }

@@ -8,6 +8,7 @@
 #include "base/csv.h"
 #include "cli/command.h"
 #include "propagation/point_table.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::cli {
 
@@ -51,6 +52,9 @@ Asked asked(const std::string& name) {
     return {&values->model(), std::move(s), std::move(values)};
   }
   if (const models::Model* model = models::find(name)) return {model, {}, {}};
+  if (std::ranges::find(scenario::made_models(), name, &scenario::MadeModelRow::name) != scenario::made_models().end())
+    throw InputError(fmt::format("{}: a scenario describes this model", name), "it has no quantities of its own",
+                     "name the scenario file in place of the model");
   std::vector<std::string> names;
   for (const auto* m : models::catalogue()) names.emplace_back(m->card->name);
   const std::string meant = nearest(name, names);

@@ -191,8 +191,10 @@ void print_comparisons(const Results& r, bool all) {
   for (const auto& c : r.comparisons) {
     const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
     const int d = decimals_for(shown(c.expanded_uncertainty));
-    std::cout << fmt::format("{} = {} {}, U = {} {}, E_n = {:.2f}\n", c.name, fixed(shown(c.difference), d), c.unit,
-                             fixed(shown(c.expanded_uncertainty), d), c.unit, c.normalised_error);
+    const std::string unit = units::suffix(c.unit);
+    std::cout << fmt::format("{} = {}{}, U = {}{}, E_n = {:.2f}\n", c.name, fixed(shown(c.difference), d), unit,
+                             fixed(shown(c.expanded_uncertainty), d), unit,
+                             std::round(100 * c.normalised_error) / 100 + 0.0); // never -0
   }
 }
 
@@ -207,8 +209,9 @@ void print_published(const Results& r, bool all) {
   for (const auto& p : r.printed) {
     const auto shown = [&](double x) { return units::from_si(x, p.unit, p.si_unit); };
     const int d = decimals_for(units::from_si(p.expanded_uncertainty, p.unit, p.si_unit, units::Kind::difference));
-    std::cout << fmt::format("{}: ours {} {}, printed {} {}{}\n", p.output, fixed(shown(p.ours), d), p.unit,
-                             fixed(shown(p.printed), d), p.unit, p.source.empty() ? "" : " (" + p.source + ")");
+    const std::string unit = units::suffix(p.unit);
+    std::cout << fmt::format("{}: ours {}{}, printed {}{}{}\n", p.output, fixed(shown(p.ours), d), unit,
+                             fixed(shown(p.printed), d), unit, p.source.empty() ? "" : " (" + p.source + ")");
   }
 }
 

@@ -124,7 +124,7 @@ std::string largest_contributions(const Budget& b, const Summary& s, const Valid
     return b.contributions.empty() || !monte_carlo
                ? "no input is uncertain"
                : "largest contributions: the GUM framework gives none here; set sensitivity = { "
-                 "sobol = 65536 } in [analysis]";
+                 "sobol = 65536 } in [analysis], or { shapley = 4096 } for correlated inputs";
   const bool cancel = !monte_carlo && contributions_cancel(b);
   std::string text = "largest contributions";
   if (monte_carlo) text += " (first-order Sobol' indices)";

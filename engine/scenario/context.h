@@ -44,6 +44,10 @@ public:
   void include(const std::string& name);
   /// Adds a note on a file, once.
   void note(const std::string& text);
+  /// The earliest of a column's clock times, from which its seconds count, as the file writes it. @param path  the
+  /// column's place in the scenario
+  void count_since(const std::string& path, const std::string& earliest) { since_.emplace(path, earliest); }
+  const std::map<std::string, std::string>& since() const { return since_; }
   /// Continues `hash` over the bytes of every file opened, in order.
   std::uint64_t hash(std::uint64_t hash) const;
 
@@ -56,6 +60,7 @@ private:
   std::unique_ptr<Csv> read_file(const std::string& file, const TextTable& form);
   std::unique_ptr<Csv> read_files(const std::string& pattern, const TextTable& form);
   std::string folder_, of_readings_;
+  std::map<std::string, std::string> since_; ///< by path
   std::vector<std::string>& notes_;
   std::vector<File> files_;                           ///< bytes read, in order
   std::map<std::string, std::unique_ptr<Csv>> tables_; ///< by name and form; null if it was no table

@@ -252,7 +252,7 @@ private:
         if (scoped(label)) continue;
         table_.add(fmt::format("{}.components: '{}' is shared by readings with different noise", table_.path(), c.name),
                    "they cannot share its draws",
-                   "write per = \"reading\", or give all of them equal numbers of repeats");
+                   "pool their s (repeatability = { pooled = true }), or state an input quantity that all share");
         return;
       }
     }

@@ -36,6 +36,8 @@ std::vector<Key> number_column_keys() {
            "the column holds clock times, which become seconds since the first: \"iso\", \"excel\" (days), or a "
            "pattern such as "
            "\"%d.%m.%Y %H:%M:%S\""},
+          {"since", shape::text(),
+           "of a clock: the time from which seconds count, as the column writes it; default: the first"},
           {"sense", shape::flag(),
            "the way the numbers in the column go from row to row: 1 up, -1 down; for readings that a path up and down "
            "gave, without a column for its direction"}};
@@ -87,6 +89,8 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
     out.read_sense(*table);
   else if (out.read_unit(*table) && table->has("map"))
     out.read_map(*table);
+  if (table->has("since") && !table->has("clock"))
+    table->refuse_key("since", "given without clock", "seconds count from a clock time", "leave it out");
   for (const char* other : {"unit", "map"}) table->find(other);
   table->refuse_unknown();
   if (!found || parent.problems().size() != problems) return std::nullopt;
@@ -160,6 +164,11 @@ void NumberColumn::read_clock(Table& table) {
   if (!pattern) return;
   try {
     const ClockFormat checked(*pattern);
+    if (const auto since = table.text("since"); since && !checked.parse(*since))
+      table.refuse_key("since", fmt::format("'{}' is not a clock time", *since),
+                       fmt::format("it is read as \"{}\"", *pattern), fmt::format("since = \"{}\"", checked.example()));
+    else
+      since_ = since.value_or("");
   } catch (const InputError& error) {
     table.problems().add(*table.find("clock"), table.path("clock"), error);
   }
@@ -266,7 +275,8 @@ std::vector<std::optional<double>> NumberColumn::clock_values(const std::vector<
                                                               Problems& problems) const {
   const ClockFormat format(clock_);
   std::vector<std::optional<Moment>> moments;
-  std::optional<Moment> first, last;
+  std::optional<Moment> zero = since_.empty() ? std::nullopt : format.parse(since_), first, last;
+  std::string earliest;
   std::int64_t days = 0;
   for (const std::size_t row : rows) {
     const CsvCell& cell = file_.csv->rows[row][columns_.front()];
@@ -283,10 +293,21 @@ std::vector<std::optional<double>> NumberColumn::clock_values(const std::vector<
     if (!format.has_date() && last && moment->since(*last) < -day / 2) days += static_cast<std::int64_t>(day);
     last = moment;
     moments.back()->seconds += days;
-    if (!first || moments.back()->since(*first) < 0) first = moments.back();
+    if (first && moments.back()->since(*first) >= 0) continue;
+    first = moments.back();
+    earliest = text_at(row);
+  }
+  if (zero && first && zero->zoned != first->zoned)
+    problems.add({file_.csv->at(file_.csv->rows[rows.front()][columns_.front()]),
+                  fmt::format("{}.since: '{}' has {} zone, and the column {}", path_, since_, zero->zoned ? "a" : "no",
+                              zero->zoned ? "none" : "one"),
+                  "the time between them is unknown", "write it as the column writes its times"});
+  if (!zero) {
+    zero = first;
+    if (first && file_.files) file_.files->count_since(path_, earliest);
   }
   std::vector<std::optional<double>> out;
-  for (const auto& moment : moments) out.push_back(moment ? std::optional(moment->since(*first)) : std::nullopt);
+  for (const auto& moment : moments) out.push_back(moment ? std::optional(moment->since(*zero)) : std::nullopt);
   return out;
 }
 

@@ -26,8 +26,8 @@ public:
   static std::optional<NumberColumn> read(Table& table, const std::string& key, const DataFile& file,
                                           const Dimension& dimension = {});
   /// The numbers of these rows in SI; nothing where a cell is wrong, with a problem at its place. Clock times are
-  /// seconds since the earliest of the rows. Times without a date go on after midnight: one more than half a day below
-  /// the row before it is of the next day. A sense is that from row to row of these.
+  /// seconds since the key `since`, or the earliest of the rows. Times without a date go on after midnight: one more
+  /// than half a day below the row before it is of the next day. A sense is that from row to row of these.
   std::vector<std::optional<double>> values(const std::vector<std::size_t>& rows, Problems& problems) const;
   const std::string& unit() const { return unit_; }
   const std::string& si_unit() const { return dimension_.si_unit; }
@@ -49,7 +49,7 @@ private:
 
   DataFile file_;
   Dimension dimension_;
-  std::string name_, unit_, clock_, path_;
+  std::string name_, unit_, clock_, since_, path_;
   bool sense_ = false;               ///< not the numbers, but the way they go
   std::vector<std::size_t> columns_; ///< of a clock time maybe two, date and time
   std::map<std::string, double> words_;

@@ -110,6 +110,7 @@ public:
     if (auto volume = top.table("volume")) read_volume(*volume, top, problems_);
     top.refuse_unknown();
     problems_.raise();
+    out_.since = files_.since();
     out_.hash = fmt::format("{:016x}", earlier_.hash(files_.hash(hash64(out_.text))));
     return std::move(out_);
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// A scenario: what is measured and what is known of each input quantity. A plain value, validated.
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -197,6 +198,9 @@ struct Scenario {
   TraceOptions trace;
   /// True if the evaluation acts on single readings and its result is the mean over all of them (`gumshoe choose`).
   bool mean_of_readings = false;
+  /// By place of a column of clock times, such as "data.conditions.time": its earliest, from which seconds count where
+  /// the scenario does not say from when.
+  std::map<std::string, std::string> since;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };

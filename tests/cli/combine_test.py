@@ -114,7 +114,10 @@ class Combine(Lengths):
         far = self.result("far", reading=110.030, u_reading=1)
         said = gumshoe("combine", self.a, far)
         self.assertEqual(said.returncode, 0)
-        self.assertIn("the results are not consistent", said.stdout)
+        # Two are equally far from their mean: none of them is the likelier.
+        self.assertIn("the results are not consistent, and U of the mean is too small: one of the two has an error that its budget lacks", said.stdout)
+        three = gumshoe("combine", self.a, far, self.b)
+        self.assertIn("a result, most likely number 2, has an error that its budget lacks", three.stdout)
         self.assertFalse(self.mean(self.a, far)["consistent"])
         self.assertTrue(self.mean(self.a, self.b)["consistent"])
 

@@ -78,6 +78,35 @@ class DataTable(InFolder):
         self.assertEqual(found[8], ("run = 10", "0.5", "-1", f"{7 * 86400 + 60}", "3.9e-06", "4.9e-06"))
         self.assertEqual([f[0] for f in found[::3]], ["run = 3", "run = 4", "run = 10"])  # numbers in their order
 
+    def test_seconds_count_from_the_time_stated(self):
+        """An hour before the first reading; of other readings, too."""
+        at = lambda text: [float(f[3]) for f in self.readings(self.explained(text))]
+        form = 'clock = "%d.%m.%Y %H:%M:%S"'
+        stated = SCENARIO.replace(form, form + ', since = "03.02.2026 09:00:00"')
+        self.assertEqual(at(stated), [t + 3600 for t in at(SCENARIO)])
+        kept = (self.folder / "run_3.csv").read_text()
+        (self.folder / "run_3.csv").unlink()
+        self.assertEqual(at(stated)[0], 86400 + 3600)
+        (self.folder / "run_3.csv").write_text(kept)
+        for said, why in (('"3 February"', "since: '3 February' is not a clock time (it is read as"),
+                          ('"03.02.2026 09:00:00", unit = "s"', "given together with clock")):
+            self.refused((form, f"{form}, since = {said}"), why)
+        self.refused((', ' + form, ', since = "03.02.2026"'), "since: given without clock")
+        (self.folder / "z.csv").write_text("at,x_um\n2026-02-03T10:00:00Z,1\n2026-02-03T11:00:00Z,2\n")
+        zoned = SCENARIO[:SCENARIO.index("[data]")].replace("gain * position + backlash * direction", "gain * time") + """[data]
+file = "z.csv"
+[data.conditions]
+time = { column = "at", clock = "iso", since = "2026-02-03T09:00:00" }
+[quantities]
+gain = { value = "0 um/s", estimated = true }
+offset = { value = "0 um", estimated = true }
+[indications.x]
+readings = { column = "x_um", unit = "um" }
+[indications.y]
+readings = { column = "x_um", unit = "um" }
+"""
+        self.refused(("", ""), "since: '2026-02-03T09:00:00' has no zone, and the column one", scenario=zoned)
+
     def test_one_table_says_what_each_indication_could(self):
         text = SCENARIO.replace("run_{run}.csv", "run_3.csv").replace('labels = { run = "run" }\n', "")
         shared = self.explained(text)

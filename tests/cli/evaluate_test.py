@@ -52,6 +52,12 @@ class Evaluate(InFolder):
             self.assertTrue(line.startswith(start) and line.endswith(",ok"), line)
         self.assertEqual(len(lines), 4)
 
+    def test_a_model_that_a_scenario_describes(self):
+        for model in ("expression", "serial_chain", "command"):
+            run = gumshoe("evaluate", model, "--table", "points.csv")
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(f"{model}: a scenario describes this model", run.stderr)
+
     def test_decimal_commas(self):
         """A cell with the other decimal sign is refused, and the remedy works; the numbers are the same."""
         text = "beam_pitch (deg);rod_radius (mm)\n0,30;5,5\n"

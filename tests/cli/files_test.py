@@ -167,6 +167,13 @@ class Files(InFolder):
         self.write("there.h5", "a letter to a friend, long enough to be no accident\n")
         self.refused("run", "s.toml", "--samples", 100, "--out", "there.h5", kept="there.h5")
 
+    def test_a_file_in_place_of_the_folder_of_results(self):
+        self.write("s.toml", FORMULA.format(title="t"))
+        self.write("results", "")
+        run = self.run_in("run", "s.toml", "--samples", 100)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("the folder 'results' cannot be made (", run.stderr)
+
     def test_an_unfinished_run_of_other_settings_is_not_dropped_in_silence(self):
         self.slow_run(signal.SIGINT)
         run = self.done("run", "s.toml", "--samples", 100)

@@ -126,6 +126,17 @@ class FromResult(Lengths):
         self.refused("other_u", own.replace("UU", "5") + '\n', "'reference' has u = 5e-06 here and 4e-06 in ",
                      "one error has one uncertainty")
 
+    def test_what_is_left_of_a_result_less_an_error_of_it_is_the_rest(self):
+        """A mean of five observations beside a reference: the draws' t has twice the variance of the framework's u."""
+        few = self.ran("beside", 'y = "reference + d"', 'reference = { value = "100 mm", u = "5 um" }\n'
+                       'd = { value = "0 mm", u = "4 um", degrees_of_freedom = 4 }')
+        out = self.ran("rest", 'y = "x - reference"', f'x = {{ from = "{few.name}:y", same = ["reference"] }}\n'
+                       'reference = { value = "100 mm", u = "5 um" }')
+        new = self.figures(out)
+        self.assertAlmostEqual(new["u_c"], 4e-6, delta=1e-10)
+        # 4 um sqrt(4 / 2), from two draws of which each has a u of 7.5 um and 5 um: u^2 of the t to 2 %.
+        self.assertAlmostEqual(new["u"], 4e-6 * math.sqrt(2), delta=0.03 * 5.7e-6)
+
     def test_degrees_of_freedom_go_on(self):
         few = self.ran("few", 'y = "a"', 'a = { value = "1 mm", u = "1 um", degrees_of_freedom = 4 }')
         out = self.ran("of_few", 'y = "x + b"', f'x = {{ from = "{few.name}:y" }}\nb = {{ value = "0 mm", u = "1 um" }}')

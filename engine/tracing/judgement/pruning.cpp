@@ -67,8 +67,10 @@ void put_in_place(const TraceContext& c, Search& s, InPlaceOfNames one, std::set
     shape.finding.p_value = std::max(shape.finding.p_value, f.finding.p_value);
     for (const std::size_t t : f.terms) dropped.insert(s.found.terms[t].candidate.name);
     dropped.insert(f.finding.members.begin(), f.finding.members.end());
-    s.dropped.push_back(fmt::format("{} was found and then dropped: {} explains what it explained",
-                                    s.found.terms[f.terms[0]].candidate.name, with_shape(one.shape)));
+    const Candidate& gone = s.found.terms[f.terms[0]].candidate;
+    if (gone.name == one.shape.name) continue; // it stands for both, fitted anew
+    s.dropped.push_back(
+        fmt::format("{} was found and then dropped: {} explains what it explained", gone.name, with_shape(one.shape)));
   }
   for (const std::size_t at : {std::max(one.named, one.rest), std::min(one.named, one.rest)}) removed(s.findings, at);
   dropped.erase(one.shape.name);

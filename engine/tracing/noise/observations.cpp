@@ -190,6 +190,18 @@ void find_blocks(const Scenario& s, Observations& o) {
   o.holdout_blocks = chosen;
 }
 
+/// A commanded condition of which each reading has a value of its own, beyond that of the one before: the number of a
+/// reading would only stand for what was set. Null: none.
+const Covariate* set_in_order(const Observations& o) {
+  for (const Covariate& c : o.covariates) {
+    if (!c.commanded || c.levels.size() < o.readings) continue;
+    std::vector<double> met;
+    for (const std::size_t r : o.sequence) met.push_back(c.value[r]);
+    if (std::ranges::is_sorted(met) || std::ranges::is_sorted(met, std::ranges::greater{})) return &c;
+  }
+  return nullptr;
+}
+
 } // namespace
 
 bool counts_readings(const Covariate& c) {
@@ -247,7 +259,12 @@ Observations observe(const propagation::Experiment& e) {
   }
   for (const auto& c : s.trace.columns) add_covariate(o, c.name, c.unit, c.si_unit, c.values);
   for (Covariate& c : o.covariates) c.course = c.name == s.trace.order_name || c.name == "time";
-  if (std::ranges::none_of(o.covariates, &Covariate::course) && o.readings > 2) {
+  const bool timed = std::ranges::any_of(o.covariates, &Covariate::course);
+  if (const Covariate* set = timed ? nullptr : set_in_order(o))
+    o.statements.push_back(fmt::format("{} was set in the order of measurement, each value once; what depends on the "
+                                       "order cannot be distinguished from what depends on {}",
+                                       set->name, set->name));
+  else if (!timed && o.readings > 2) {
     std::vector<double> rank(o.readings);
     for (std::size_t i = 0; i < o.readings; ++i) rank[o.sequence[i]] = static_cast<double>(i + 1);
     add_covariate(o, "order", "1", "1", rank);

@@ -88,6 +88,7 @@ public:
 
   std::string write() {
     start_earlier();
+    state_since();
     for (const Correction& c : t_.corrections) correct(c);
     for (const Correction& c : t_.noise_effects) correct(c);
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
@@ -192,6 +193,19 @@ private:
     if (const double margin = margin_of(c); margin > 0)
       table.members.push_back({"margin", 0, 0, calibration::number_node(margin)});
     effect.members.push_back({"table", 0, 0, std::move(table)});
+  }
+
+  /// Other readings count their seconds from the same moment.
+  void state_since() {
+    for (const auto& [path, earliest] : s_.since) {
+      Node* node = &text_.document();
+      for (std::size_t at = 0; node && at <= path.size();) {
+        const std::size_t end = std::min(path.find('.', at), path.size());
+        node = find_member(*node, path.substr(at, end - at));
+        at = end + 1;
+      }
+      if (node && find_member(*node, "clock")) member(*node, "since") = text_node(earliest);
+    }
   }
 
   /// The course of data without times is the number of the reading, which has a name from here on.
