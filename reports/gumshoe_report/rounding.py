@@ -8,6 +8,7 @@ FINER = {"m": ("mm", 1e3), "mm": ("um", 1e3), "deg": ("arcsec", 3600.0), "rad": 
 # Units to show where a column has only its SI unit.
 COMMON = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi), "m/s": ("mm/min", 6e4), "rad/s": ("rpm", 30 / math.pi)}
 SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "degF": "°F", "urad": "µrad"}
+DOUBLE = 15  # decimal digits that every double has
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -42,6 +43,20 @@ def decimals(u, digits=2):
     return places - 1 if round(u, places) >= 10 ** (digits - places) else places
 
 
+def far_from_the_point(value, places):
+    """A value at a place so far from the decimal point that an exponent is shorter, unless the value itself is near it."""
+    power = math.floor(math.log10(abs(value))) if value else 0
+    digits = places + power  # after the first
+    if not value or digits < 0:
+        return "0"
+    if digits >= DOUBLE:
+        return f"{value:.{DOUBLE}g}"
+    if places > 0 and -4 <= power < 5:
+        return f"{value:.{places}f}"
+    mantissa, exponent = f"{value:.{digits}e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
 def fixed(value, places):
     """A value at a decimal place; `places` None shows six significant digits."""
     if not math.isfinite(value):
@@ -49,12 +64,12 @@ def fixed(value, places):
     if places is None:
         text = f"{value:.6g}"
     elif places > 9 or places < -15:
-        text = f"{value:.{max(1, places + math.floor(math.log10(abs(value) or 1)))}e}"
+        text = far_from_the_point(value, places)
     else:
         text = f"{round(value, places):.{max(places, 0)}f}"
     if float(text) == 0:
         text = text.lstrip("-")
-    return text.replace("-", "−", 1) if text.startswith("-") else text
+    return text.replace("-", "−")
 
 
 def significant(value, digits=2):

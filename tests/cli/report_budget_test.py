@@ -225,6 +225,14 @@ class Cancelling(Runs):
         self.assertIn("-66.7\u202f%".replace("-", "−"), page.render(read.result(self.folder / "s.h5")))
 
 
+class Places(unittest.TestCase):
+    def test_no_more_digits_than_a_double_has_and_zero_is_zero(self):
+        for value, u, text in ((0, 3.2e-16, "0"), (3.2e-15, 1.1e-14, "3e−15"), (-1.234e-12, 1e-13, "−1.23e−12"),
+                               (1e-18, 1e-16, "0"), (1.0, 1e-17, "1"), (1 / 3, 1e-17, "0.333333333333333"),
+                               (0.5, 1e-10, "0.50000000000"), (0, 0.1, "0.00"), (6.0221e23, 1e20, "6.0221e23")):
+            self.assertEqual(rounding.fixed(value, rounding.decimals(u)), text)
+
+
 class Coverage(Runs):
     def test_a_probability_below_one_is_never_a_hundred_percent(self):
         shown = {0.95: "95", 0.9545: "95.45", 0.9973: "99.73", 0.6827: "68.27", 0.99999: "99.999", 1e-5: "0.001",
