@@ -111,5 +111,10 @@ def probability(p):
     return text.rstrip("0").rstrip(".") + "\u202f%"
 
 
+def degrees_of_freedom(n):
+    text = f"{n:.4g}" if math.isfinite(n) else "–"
+    return f"{text} degree{'' if text == '1' else 's'} of freedom"
+
+
 def thousands(n):
     return f"{int(n):,}".replace(",", "\u202f")

@@ -2,7 +2,7 @@
 import math
 import types
 
-from .rounding import after, decimals, finer, fixed, percent, probability, significant, unit_text
+from .rounding import after, decimals, degrees_of_freedom, finer, fixed, percent, probability, significant, unit_text
 from .tables import point, spread
 
 NONE = "–"
@@ -131,7 +131,7 @@ def fit(study, outputs):
     tested = math.isfinite(study.chi_squared)
     unit, show = in_finer_unit(study, study.scatter) if scaled else ("", None)
     return types.SimpleNamespace(
-        meaning=study.meaning, equations=study.equations, freedom=f"{study.degrees_of_freedom:.4g}" if math.isfinite(study.degrees_of_freedom) else NONE,
+        meaning=study.meaning, equations=study.equations, freedom=degrees_of_freedom(study.degrees_of_freedom),
         s=show(study.scatter) + (f"\u202f{unit}" if unit else "") if scaled else "",
         chi_squared=significant(study.chi_squared, 3) if tested else "",
         probability=chance(study.probability) if tested else "",

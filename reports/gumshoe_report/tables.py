@@ -19,6 +19,19 @@ def spread(row, value):
     return value * row.display_factor
 
 
+def of_failures(o, show):
+    """What the interval is if the samples without a value had any values: its bounds by rank, where there are some."""
+    low, high = (with_unit(show(end), o.display_units) if math.isfinite(end) else ""
+                 for end in (o.symmetric_low_rank, o.symmetric_high_rank))
+    if low and high:
+        ends = with_unit(f"[{show(o.symmetric_low_rank)}, {show(o.symmetric_high_rank)}]", o.display_units)
+        return f"Whatever their values, the symmetric interval lies within {ends}."
+    if low or high:
+        bound, end = ("upper", f"lower end is at least {low}") if low else ("lower", f"upper end is at most {high}")
+        return f"With so many of them no {bound} bound can be given for the symmetric interval; its {end}."
+    return "With so many of them no bounds can be given for the symmetric interval."
+
+
 def summary_row(o):
     width = (o.shortest_high - o.shortest_low) / 4
     places = decimals(spread(o, o.standard_uncertainty if math.isfinite(o.standard_uncertainty) else width))
@@ -30,7 +43,7 @@ def summary_row(o):
         u=fixed(spread(o, o.standard_uncertainty), places), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
         shortest=(show(o.shortest_low), show(o.shortest_high)),
         failed=f"{o.failed} of {total}" if o.failed else "",
-        rank=(show(o.symmetric_low_rank), show(o.symmetric_high_rank)) if o.failed else None,
+        rank=of_failures(o, show) if o.failed else "",
         estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
         skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning,
         tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
@@ -158,8 +171,8 @@ def budget(b, u_monte_carlo=math.nan, sobol=None):
     u = b.combined_standard_uncertainty
     dof = b.effective_degrees_of_freedom
     fine, factor = finer(b.display_units, spread(b, u) if u > 0 else abs(spread(b, u_monte_carlo)))
-    moved = [f"second-order terms change u_c to {significant(spread(b, b.second_order_uncertainty))} and shift the mean "
-             f"by {significant(spread(b, b.second_order_bias))} {unit_text(b.display_units)}"] \
+    moved = [f"second-order terms change u_c to {with_unit(significant(spread(b, b.second_order_uncertainty)), b.display_units)} and shift the mean "
+             f"by {with_unit(significant(spread(b, b.second_order_bias)), b.display_units)}"] \
         if u > 0 and (abs(b.second_order_uncertainty / u - 1) > 0.05 or abs(b.second_order_bias) > 0.1 * u) else []
     alone = math.hypot(*(c.contribution for c in b.rows if math.isfinite(c.contribution)))
     without_shares = [f"the inputs are correlated, and their contributions of {significant(factor * spread(b, alone))}{after(fine)} cancel to "

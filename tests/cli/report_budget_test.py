@@ -75,6 +75,19 @@ sensitivity = { shapley = 256 }
 """
 
 
+# Fails where x is negative.
+ROOT_OF = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "sqrt(x)"
+[quantities]
+x = { value = %s, u = 0.1 }
+[run]
+max_failed_share = 0.5
+"""
+
+
 class Runs(InOneFolder):
     @classmethod
     def ran(cls, text, *options, samples=50_000):
@@ -197,6 +210,14 @@ class Reduced(Runs):
         for linear in (("a + b", 1, ""), ("a + b", 5, ", degrees_of_freedom = 5")):
             self.assertRegex(self.ran(LINEAR % linear),
                              r"(?m)^  largest contributions: [ab] \d\.\d um \(\d+ %\), [ab] ")
+
+
+class Failing(Runs):
+    def test_no_bounds_are_stated_where_too_many_samples_failed(self):
+        words = page.render(self.result(ROOT_OF % 0.1))
+        self.assertIn("With so many of them no bounds can be given for the symmetric interval.", words)
+        self.assertRegex(words, "shift the mean by −0.0[0-9]+\\.")
+        self.assertIn("Whatever their values, the symmetric interval lies within [", page.render(self.result(ROOT_OF % 0.25)))
 
 
 class Cancelling(Runs):
