@@ -201,6 +201,22 @@ class Reduced(Runs):
         self.assertAlmostEqual(float(row.half), 1e6 * halved, delta=0.1)
         self.assertIn(f"from {rounding.significant(1e6 * u)}\u202fµm", found.text)
 
+    def test_without_a_standard_uncertainty_nothing_is_claimed_of_it(self):
+        for x in ('["1.00 mm", "1.02 mm", "1.01 mm"]', '["1.00 mm", "1.02 mm"]'):
+            text = LINEAR.replace('a = { value = "0 um", u = "%s um"%s }', f"x = {{ observations = {x} }}")
+            u, found = self.reduced(text % "x + b")
+            self.assertFalse(math.isfinite(u))
+            self.assertEqual(found.rows, [])
+            self.assertIn("No standard uncertainty exists", found.text)
+            self.assertIn("More observations of x would give it one", found.text)
+            self.assertNotIn("µm", found.text)
+
+    def test_words_of_the_program_are_no_source_to_better(self):
+        text = LINEAR.replace('a = { value = "0 um", u = "%s um"%s }\n', "") % "x + b"
+        text += '[indications]\nx = { readings = ["1 um"], u = "9 um" }\n'
+        row = next(row for row in self.reduced(text)[1].rows if row.name.startswith("x"))
+        self.assertEqual(row.how, "more indications in a reading: four times as many halve it")
+
     def test_the_terminal_says_the_same(self):
         text = self.ran(TORQUE % LENGTH)
         self.assertRegex(text, r"largest contributions to first order only \(u_c = 0\.00050 N\*m; Monte Carlo gives "
