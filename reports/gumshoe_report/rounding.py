@@ -111,6 +111,20 @@ def probability(p):
     return text.rstrip("0").rstrip(".") + "\u202f%"
 
 
+def resolved(p, least):
+    """A probability from samples that resolve `least` and no less, as probability_text() of the engine writes it: with as
+    many digits as the smaller of both sides needs, and a bound in place of 0 and 100 %."""
+    if not math.isfinite(p):
+        return "–"
+    if p < least or 1 - p < least:
+        scale = 10.0 ** math.floor(math.log10(least))
+        bound = math.ceil(least / scale * (1 - 1e-9)) * scale  # one digit, to the side on which it holds
+        text = fixed(100 * (bound if p < least else 1 - bound), max(0, -math.floor(math.log10(100 * bound) + 1e-9)))
+        return f"{'<' if p < least else '>'}\u202f{text}\u202f%"
+    rest = 100 * min(p, 1 - p)
+    return fixed(100 * p, max(0, min(9, 2 - math.floor(math.log10(rest))))) + "\u202f%"
+
+
 def degrees_of_freedom(n):
     text = f"{n:.4g}" if math.isfinite(n) else "–"
     return f"{text} degree{'' if text == '1' else 's'} of freedom"

@@ -32,9 +32,14 @@ def of_failures(o, show):
     return "With so many of them no bounds can be given for the symmetric interval."
 
 
-def summary_row(o):
+def places_of(o):
+    """Decimal places of an output: two digits of u, or of a quarter of the interval where no u exists."""
     width = (o.shortest_high - o.shortest_low) / 4
-    places = decimals(spread(o, o.standard_uncertainty if math.isfinite(o.standard_uncertainty) else width))
+    return decimals(spread(o, o.standard_uncertainty if math.isfinite(o.standard_uncertainty) else width))
+
+
+def summary_row(o):
+    places = places_of(o)
     show = lambda value: fixed(point(o, value), places)
     total = o.valid + o.failed
     return types.SimpleNamespace(
@@ -67,7 +72,7 @@ def diagnostic_text(o):
     """A figure that says how the evaluation went: its value, or the range that holds most of its values."""
     if constant(o):
         return constant_text(o)
-    places = decimals(spread(o, o.standard_uncertainty))
+    places = places_of(o)
     ends = " to ".join(fixed(point(o, x), places) for x in (o.symmetric_low, o.symmetric_high))
     return f"{o.name} {with_unit(ends, o.display_units)}"
 
@@ -87,7 +92,7 @@ def numbered(outputs):
         u = o.standard_uncertainty
         if constant(o):
             return fixed(point(o, o.estimate), None), ""
-        return fixed(point(o, o.estimate), decimals(spread(o, u))), significant(spread(o, u))
+        return fixed(point(o, o.estimate), places_of(o)), significant(spread(o, u))
     return types.SimpleNamespace(
         hidden="seen" in stems and any(o.symmetric_low < 1 for o in stems["seen"].values()),
         heads=[(name, unit_text(rows[numbers[0]].display_units), not all(map(constant, rows.values())))
@@ -201,7 +206,8 @@ def validation_row(v):
 
 
 def comparison_row(c):
-    places = decimals(spread(c, c.standard_uncertainty))
+    u = c.standard_uncertainty if math.isfinite(c.standard_uncertainty) else c.expanded_uncertainty / 2
+    places = decimals(spread(c, u))
     show = lambda value: fixed(spread(c, value), places)
     return types.SimpleNamespace(
         name=c.name, unit=unit_text(c.display_units), d=show(c.difference), u=show(c.standard_uncertainty),

@@ -14,7 +14,7 @@ from program import GUMSHOE, ROOT, InOneFolder
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import csv_tables, explain, page, read, reduce, rounding, tables, workbook
+from gumshoe_report import csv_tables, explain, page, read, reduce, rounding, studies, tables, workbook
 
 # Units that differ from those of the inputs in scale: a temperature in degF, a difference of voltages in mV.
 UNITS = """schema = 1
@@ -234,6 +234,32 @@ class Failing(Runs):
         self.assertIn("With so many of them no bounds can be given for the symmetric interval.", words)
         self.assertRegex(words, "shift the mean by −0.0[0-9]+\\.")
         self.assertIn("Whatever their values, the symmetric interval lies within [", page.render(self.result(ROOT_OF % 0.25)))
+
+
+class Conformity(Runs):
+    """The table has the digits and the bounds of the statement above it."""
+
+    def table_of(self, x, limits):
+        text = LINEAR.replace('a = { value = "0 um", u = "%s um"%s }\n', f"x = {{ {x} }}\n").replace("6 um", "1 nm") % "x + b"
+        r = self.result(text + f'[[analysis.conformity]]\nmeasurand = "y"\n{limits}rule = "ilac_g8"\n')
+        return studies.conformity(r.conformity[0], r.outputs[0])
+
+    def test_digits_where_no_standard_uncertainty_exists(self):
+        c = self.table_of('observations = ["1.00 mm", "1.02 mm", "1.01 mm"]', 'lower = "0.9 mm"\nupper = "1.1 mm"\n')
+        self.assertEqual((c.tolerance, c.estimate, c.acceptance, c.guard), (["900", "1100"], "1010", ["925", "1075"], "25"))
+        self.assertIn("from 925 um to 1075 um", c.statement)
+
+    def test_what_the_samples_do_not_resolve_is_a_bound(self):
+        c = self.table_of('value = "1 mm", u = "10 um"', 'lower = "0.9 mm"\nprocess = { value = "1 mm", u = "20 um" }\n')
+        risks = {name: value.replace("\u202f", " ") for name, value, _ in c.risks}
+        self.assertEqual(c.p_c.replace("\u202f", " "), "> 99.994 %")
+        self.assertEqual(risks["specific consumer’s risk"], "< 0.006 %")
+        self.assertEqual(risks["global consumer’s risk R_C"], "< 0.006 %")
+        self.assertEqual(risks["process conformance"], "> 99.9999 %")
+        for value in (c.p_c, *risks.values()):
+            if "±" not in value:
+                self.assertIn(value.replace("\u202f", " "), c.statement)
+            self.assertNotRegex(value, "^0\u202f%|100\\.0|± 0\\.0*\\)")
 
 
 class Cancelling(Runs):
