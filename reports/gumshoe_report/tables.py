@@ -3,8 +3,9 @@ import math
 import re
 import types
 
+from . import conditions
 from .explain import cancels
-from .rounding import COMMON, after, decimals, finer, fixed, percent, significant, unit_text
+from .rounding import after, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
 ALIKE = 4            # components of many readings that each have a row of their own
@@ -235,11 +236,11 @@ def input_row(i):
 
 
 def readings(r):
-    """Head and rows of the readings table; SI columns in the unit common in a workshop."""
+    """Head and rows of the readings table."""
     names = [n for n in (vars(r.readings[0]) if r.readings else {}) if n not in ("label", "repeats")]
-    shown = {n: COMMON.get(r.reading_units[n], (r.reading_units[n], 1.0)) for n in names}
-    heads = [f"{n} ({unit_text(shown[n][0])})" if unit_text(shown[n][0]) else n for n in names]
-    lines = [[f"{getattr(row, n) * shown[n][1]:.10g}".replace("-", "−") for n in names] for row in r.readings]
+    shown = {n: conditions.scale(r, n) for n in names}
+    heads = [f"{n} ({unit_text(shown[n].unit)})" if unit_text(shown[n].unit) else n for n in names]
+    lines = [[shown[n].number(getattr(row, n)) for n in names] for row in r.readings]
     if not names and len(r.readings) < 2:  # nothing was read and nothing commanded
         return types.SimpleNamespace(heads=[], lines=[])
     return types.SimpleNamespace(heads=heads, lines=[(row.label, row.repeats, line)
