@@ -83,6 +83,7 @@ def pareto(c, name):
     axes.grid(**GRID)
     axes.set_xlabel("time that measuring takes")
     axes.set_ylabel(axis_label("U", c.display_units))
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=6, frameon=False, fontsize=8, handletextpad=0.4,
-                columnspacing=1.4)
+    handles = axes.get_legend_handles_labels()[0]
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=5 if len(handles) <= 5 else 3, frameon=False,
+                fontsize=8, handletextpad=0.4, columnspacing=1.4)
     return svg(figure, name, "Time against expanded uncertainty of all candidates, with the Pareto front")
