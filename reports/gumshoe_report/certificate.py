@@ -22,6 +22,6 @@ def line(o, b, v, p):
     places, unit = decimals(U), unit_text(b.display_units)
     pair = f"{fixed(point(b, b.estimate), places)} ± {fixed(U, places)}"
     dof = b.effective_degrees_of_freedom
-    tail = f" ({dof:.0f} effective degrees of freedom)" if math.isfinite(dof) and dof > 0 else ""
+    tail = f" ({dof:.0f} effective degree{'' if round(dof) == 1 else 's'} of freedom)" if math.isfinite(dof) and dof > 0 else ""
     return (f"{o.name} = " + (f"({pair})\u202f{unit}" if unit else pair) + f", k = {fixed(b.coverage_factor, 2)}{tail}, "
             f"{probability(p)}")

@@ -7,6 +7,8 @@ from .tables import point, spread
 
 SPACE = "\u202f"
 LISTED = 40  # rows of the front and of failing candidates on the page
+NOT_CONFIRMED = "not confirmed by fresh samples"
+TRIED = 20   # candidates that are run afresh at most
 MOST = 400   # rows of all candidates; the CSV table has all
 
 
@@ -49,6 +51,26 @@ def axis_label(name, units):
     return name.replace("_", " ") + (f", {unit_text(units)}" if unit_text(units) else "")
 
 
+def refuted(c):
+    """Candidates, by position, that met the target in the search and not with fresh samples.
+
+    Candidates that meet it are run afresh in the order of their times until one is confirmed, TRIED at most. One is passed
+    over where its U is no smaller than that of one that failed: with common random numbers it would fail, too. The one
+    taken is the confirmed one, or the likeliest."""
+    best = int(c.best)
+    if not c.reached or not c.candidates[best].meets:
+        return frozenset()
+    order = lambda k: (c.candidates[k].time, c.candidates[k].asked, k)
+    meeting = {k for k, row in enumerate(c.candidates) if row.meets}
+    before = {k for k in meeting if order(k) < order(best)}
+    if not c.confirmed:
+        return frozenset(meeting if c.tried < TRIED else before | {best})
+    if math.isfinite(c.bias_limit):
+        return frozenset(before)
+    least = min((c.candidates[k].asked for k in before), default=math.inf)  # what failed, failed by its U
+    return frozenset(before | {k for k in meeting if c.candidates[k].asked >= least} - {best})
+
+
 class Choice:
     """The group `choice` with its units: `show` makes text of it."""
 
@@ -60,6 +82,7 @@ class Choice:
         self.unit = unit_text(c.display_units)
         self.corrected = c.definition == "corrected"
         self.worst, self.bounded = c.target_of == "worst_case", math.isfinite(c.bias_limit)
+        self.refuted = refuted(c)
         self.chooses_evaluation = any(v.kind == "evaluation" for v in c.variables)
 
     def digits(self, U):
@@ -136,11 +159,26 @@ class Choice:
         return (f"This U holds after a correction: {verb} {with_unit(size, self.c.display_units)} {end} every result, "
                 f"whose mean error is {self.length(self.fresh.mean)}.")
 
+    def fails_afresh(self, row):
+        return any(self.c.candidates[k] is row for k in self.refuted)
+
+    def unconfirmed(self):
+        """What became of candidates that met the target in the search only, in words."""
+        count = len(self.refuted)
+        if not count:
+            return ""
+        met = "1 candidate" if count == 1 else f"{count} candidates"
+        run = self.c.tried - bool(self.c.confirmed)
+        return (f"In the search {met} met the target without being confirmed by fresh samples. "
+                f"{'It' if count == 1 else f'{run} of them'} {'was' if run == 1 else 'were'} run with fresh samples and missed "
+                "the required probability" +
+                ("." if run == count else "; each of the others has a U at least as large as one of these."))
+
     def refused(self, row):
         """Why a candidate does not meet the target; "" if it does."""
         c = self.c
         if row.meets:
-            return ""
+            return NOT_CONFIRMED if self.fails_afresh(row) else ""
         if not row.valid:
             return "all samples failed"
         if row.asked > c.target:
@@ -157,7 +195,7 @@ class Choice:
         return types.SimpleNamespace(
             setting=setting, time=duration(row.time), U=show(row.asked),
             U_se=significant(spread(c, row.asked_se), 1), average=show(row.expanded), mean=show(row.mean),
-            meets=bool(row.meets), refused=self.refused(row),
+            meets=not self.refused(row), refused=self.refused(row),
             failed=f"{row.failed} of {row.valid + row.failed}" if row.failed else "",
             cases=[(show(u), show(left)) for u, left in zip(row.case_expanded, row.case_left)] if c.cases else [])
 
@@ -202,16 +240,18 @@ class Choice:
     def flatness(self):
         """How much room there is, in words."""
         c = self.c
-        if not c.near_count:
+        near = [row for row in c.candidates if row.meets and row.time <= (1 + c.near_share) * self.best.time
+                and not self.fails_afresh(row)]
+        if not near:
             return ""
         spans = []
-        for v in c.variables:
+        for k, v in enumerate(c.variables):
             if v.kind == "evaluation":
                 continue
-            low, high = self.value(v, v.near_low), self.value(v, v.near_high)
+            low, high = (self.value(v, end(row.values[k] for row in near)) for end in (min, max))
             spans.append(f"{v.name.replace('_', ' ')} {low}" if low == high else
                          f"{v.name.replace('_', ' ')} from {low} to {high}")
-        many = "1 candidate meets" if c.near_count == 1 else f"{c.near_count} candidates meet"
+        many = "1 candidate meets" if len(near) == 1 else f"{len(near)} candidates meet"
         return (f"{many} the target within {significant(100 * c.near_share, 2)}{SPACE}% of the recommended time" +
                 (f": {joined(spans)}." if spans else "."))
 

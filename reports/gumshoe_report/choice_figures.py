@@ -2,7 +2,7 @@
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
-from .choice import axis_label, duration, plain_number
+from .choice import axis_label, duration, plain_number, refuted
 from .figures import BLUE, GREY, GRID, INK, ORANGE, svg
 
 
@@ -48,11 +48,15 @@ def pareto(c, name):
         return ""
     U = lambda r: r.asked * c.display_factor
     figure, axes = plt.subplots(figsize=(7.2, 3.9), layout="constrained")
-    for group, colour, text in (([r for r in rows if not r.meets], GREY, "misses the target"),
-                                ([r for r in rows if r.meets], BLUE, "meets the target")):
+    missed = [c.candidates[k] for k in refuted(c)]
+    outcome = lambda r: "misses the target" if not r.meets else "not confirmed" if any(r is m for m in missed) else "meets the target"
+    for text, look in (("misses the target", {"color": GREY, "markeredgewidth": 0}),
+                       ("not confirmed", {"markeredgecolor": BLUE, "markerfacecolor": "none", "markeredgewidth": 0.8}),
+                       ("meets the target", {"color": BLUE, "markeredgewidth": 0})):
+        group = [r for r in rows if outcome(r) == text]
         if group:
-            axes.plot([r.time for r in group], [U(r) for r in group], "o", color=colour, markersize=3.2, alpha=0.45,
-                      markeredgewidth=0, label=text)
+            axes.plot([r.time for r in group], [U(r) for r in group], "o", markersize=3.2, linestyle="none", label=text,
+                      alpha=1 if text == "not confirmed" else 0.45, **look)
     front = sorted((r for r in rows if r.pareto), key=lambda r: r.time)
     axes.step([r.time for r in front], [U(r) for r in front], where="post", color=INK, linewidth=1,
               label="Pareto front")
@@ -79,6 +83,7 @@ def pareto(c, name):
     axes.grid(**GRID)
     axes.set_xlabel("time that measuring takes")
     axes.set_ylabel(axis_label("U", c.display_units))
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=5, frameon=False, fontsize=8, handletextpad=0.4,
-                columnspacing=1.4)
+    handles = axes.get_legend_handles_labels()[0]
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=5 if len(handles) <= 5 else 3, frameon=False,
+                fontsize=8, handletextpad=0.4, columnspacing=1.4)
     return svg(figure, name, "Time against expanded uncertainty of all candidates, with the Pareto front")

@@ -7,7 +7,7 @@ from matplotlib.colors import LinearSegmentedColormap, TwoSlopeNorm
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-from .choice import axis_label, plain_number
+from .choice import axis_label, plain_number, refuted
 from .figures import BLUE, GREY, GRID, INK, ORANGE, PALE, svg
 
 FEASIBLE = LinearSegmentedColormap.from_list("target", [  # a step at the target, in the middle
@@ -145,7 +145,9 @@ def heat(c, name):
                 if np.isfinite(line[k] + line[k + 1]):
                     axes.vlines(edges[0][k + 1], j - 0.5, j + 0.5, color=MARK, linewidth=1.3)
     place = [s if v.range else np.searchsorted(l, s) for v, s, l in zip((vx, vy), shown, lists)]
-    meets = np.array([bool(r.meets) for r in rows])
+    missed = [c.candidates[k] for k in refuted(c)]
+    confirmed = lambda r: bool(r.meets) and not any(r is m for m in missed)
+    meets = np.array([confirmed(r) for r in rows])
     if vx.range:
         axes.plot(place[0][meets], place[1][meets], "o", color=MARK, markersize=3)
         axes.plot(place[0][~meets], place[1][~meets], "o", markerfacecolor="none", markeredgecolor=MARK, markersize=3,
@@ -155,7 +157,7 @@ def heat(c, name):
     else:
         for x, y, r in zip(*place, rows):
             axes.text(x, y, plain_number(float(f"{r.asked * c.display_factor:.2g}")) if r.asked > 0 else "no value",
-                      ha="center", va="center", fontsize=8, weight="bold" if r.meets else "normal",
+                      ha="center", va="center", fontsize=8, weight="bold" if confirmed(r) else "normal",
                       color=LIGHT if r.asked > 0 and abs(norm(math.log(r.asked / c.target)) - 0.5) > 0.35 else MARK)
     best = c.candidates[int(c.best)]
     at = [best.values[k] * v.display_factor + v.display_offset for k, v in zip(picked, (vx, vy))]

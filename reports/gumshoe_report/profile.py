@@ -1,10 +1,10 @@
 """Profiles: one measurand at many readings along one condition, such as the azimuth of a scan."""
 import math
-import re
 import types
 
+from .conditions import parts, scale
 from .explain import cancels, law_accounts, listed
-from .rounding import COMMON, after, finer, percent, significant
+from .rounding import after, finer, percent, significant
 
 LEAST = 8    # points of a line
 LINES = 6    # lines drawn; the tables have all
@@ -17,12 +17,6 @@ def values(r, outputs):
     names = [n for n in r.reading_units if n not in read]
     found = {n: [getattr(r.readings[int(o.reading)], n, math.nan) for o in outputs] for n in names}
     return {n: v for n, v in found.items() if all(map(math.isfinite, v))}
-
-
-def parts(name):
-    """Labels and conditions in the name of an output: deviation[line 1, theta 50 deg]."""
-    inside = re.search(r"\[(.*)\]$", name)
-    return inside[1].split(", ") if inside else []
 
 
 def along(conditions):
@@ -66,7 +60,8 @@ def of(r, outputs):
         name = along(conditions)
         drawn = lines(group, conditions, name) if name else []
         if drawn:
-            yield types.SimpleNamespace(measurand=measurand, along=name, units=r.reading_units[name], lines=drawn)
+            yield types.SimpleNamespace(measurand=measurand, along=name, units=r.reading_units[name], lines=drawn,
+                                        scale=scale(r, name))
 
 
 def of_variance(output, budgets, sobol):
@@ -98,24 +93,48 @@ def shares(profile, budgets, sobol):
     return order, [[[row.get(n, 0.0) if row else math.nan for row in rows] for n in order] for rows in tables]
 
 
+def size(o):
+    """u of an output as text."""
+    u = o.standard_uncertainty * o.display_factor
+    unit, factor = finer(o.display_units, u)
+    return significant(factor * u) + after(unit)
+
+
+def even(known):
+    """Whether u is the same at all points: as it is written, or but for the scatter of so many Monte Carlo estimates."""
+    low, high = (f(known, key=lambda o: o.standard_uncertainty) for f in (min, max))
+    noise = max(o.standard_uncertainty_se if math.isfinite(o.standard_uncertainty_se) else 0.0 for o in known)
+    reach = 2 * math.sqrt(2 * math.log(len(known))) * noise  # about the range of so many normal deviates
+    return size(low) == size(high) or high.standard_uncertainty - low.standard_uncertainty <= reach
+
+
 def widest(profile, budgets, sobol):
     """Where u is largest, and which quantities make it; "" where no output has one."""
     known = [(o.standard_uncertainty, line.label, x, o) for line in profile.lines for x, o in zip(line.x, line.outputs)
              if math.isfinite(o.standard_uncertainty)]
     if not known:
         return ""
+    outputs = [o for *_, o in known]
+    if even(outputs):
+        sizes = list(dict.fromkeys(size(o) for o in sorted(outputs, key=lambda o: o.standard_uncertainty)))
+        about = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+        text = f"The standard uncertainty of {profile.measurand} is {about} at every {profile.along}" + (
+            "." if len(sizes) == 1 else "; that is no more than Monte Carlo estimates scatter.")
+        shares = [of_variance(o, budgets, sobol) for o in outputs]
+        mean = {name: sum(row.get(name, 0.0) for row in shares) / len(shares) for row in shares for name in row}
+        return text + due(mean, " On average its variance is due to")
     ends = [(k, f(known, key=lambda point: point[0])) for k, f in (("largest", max), ("smallest", min))]
-    unit, factor = COMMON.get(profile.units, (profile.units, 1.0))
-    told = []
-    for word, (u, label, x, o) in ends:
-        shown, finer_by = finer(o.display_units, u * o.display_factor)
-        told.append(f"{word}, {significant(u * o.display_factor * finer_by)}{after(shown)}, at {profile.along} = "
-                    f"{x * factor:.6g}{after(unit)}" + (f" ({label})" if label else ""))
-    text = f"The standard uncertainty of {profile.measurand} is {told[0]}, and {told[1]}."
-    o = ends[0][1][3]
-    found = sorted(of_variance(o, budgets, sobol).items(), key=lambda item: -item[1])[:3]
+    told = [f"{word}, {size(o)}, at {profile.along} = {profile.scale.text(x)}" + (f" ({label})" if label else "")
+            for word, (_, label, x, o) in ends]
+    return (f"The standard uncertainty of {profile.measurand} is {told[0]}, and {told[1]}." +
+            due(of_variance(ends[0][1][3], budgets, sobol), " Where it is largest, its variance is due to") + by_line(profile))
+
+
+def due(shares, words):
+    """The three largest shares of a variance in words; "" where none is worth a word."""
+    found = sorted(shares.items(), key=lambda item: -item[1])[:3]
     main = [f"{name} {percent(share)}" for name, share in found if share > 0.05]
-    return text + (f" Where it is largest, its variance is due to {listed(main)}." if main else "") + by_line(profile)
+    return f"{words} {listed(main)}." if main else ""
 
 
 def by_line(profile):
@@ -124,7 +143,5 @@ def by_line(profile):
     for line in profile.lines[:LINES]:
         known = [o for o in line.outputs if math.isfinite(o.standard_uncertainty)]
         if known and line.label:
-            o = max(known, key=lambda o: o.standard_uncertainty)
-            shown, by = finer(o.display_units, o.standard_uncertainty * o.display_factor)
-            ends.append(f"{significant(o.standard_uncertainty * o.display_factor * by)}{after(shown)} on {line.label}")
+            ends.append(f"{size(max(known, key=lambda o: o.standard_uncertainty))} on {line.label}")
     return f" At most it is {'; '.join(ends)}." if len(ends) > 1 else ""

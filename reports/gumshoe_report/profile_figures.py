@@ -18,12 +18,6 @@ def is_round(p):
     return p.units == "rad" and max(x) - min(x) >= ROUND
 
 
-def shown_x(p):
-    """Unit of the condition and factor from SI."""
-    unit, factor = rounding.COMMON.get(p.units, (p.units, 1.0))
-    return rounding.unit_text(unit), factor
-
-
 def deviations(p):
     """Unit, factor, and by line estimate, low and high end as shown."""
     outputs = [o for line in p.lines for o in line.outputs]
@@ -77,7 +71,7 @@ def polar(p, drawn, unit, name, probability):
 def straight(p, drawn, unit, name, probability):
     """Estimate and band against the condition, a panel for each line."""
     shown = drawn[:profile.LINES]
-    x_unit, factor = shown_x(p)
+    x_unit = rounding.unit_text(p.scale.unit)
     columns = min(2, len(shown))
     rows = math.ceil(len(shown) / columns)
     figure, grid = plt.subplots(rows, columns, figsize=(7.2, 1.9 * rows + 0.5), layout="constrained", squeeze=False,
@@ -85,7 +79,7 @@ def straight(p, drawn, unit, name, probability):
     for axes in grid.flat[len(shown):]:
         axes.set_visible(False)
     for axes, line, (estimate, low, high) in zip(grid.flat, p.lines, shown):
-        x = np.array(line.x) * factor
+        x = p.scale.of(np.array(line.x))
         axes.fill_between(x, low, high, color=PALE, linewidth=0)
         axes.plot(x, estimate, color=BLUE, linewidth=1.3)
         axes.grid(**GRID)
@@ -112,7 +106,7 @@ def where(p, budgets, sobol, name):
     shown = p.lines[:profile.LINES]
     u = [np.array([o.standard_uncertainty * o.display_factor for o in line.outputs]) for line in shown]
     unit, factor = rounding.finer(shown[0].outputs[0].display_units, max(float(np.nanmax(v)) for v in u))
-    x_unit, x_factor = shown_x(p)
+    x_unit = rounding.unit_text(p.scale.unit)
     columns = min(2, len(shown))
     rows = math.ceil(len(shown) / columns)
     figure = plt.figure(figsize=(7.2, 1.9 * rows + 0.7), layout="constrained")
@@ -121,7 +115,7 @@ def where(p, budgets, sobol, name):
     for axes in grid.flat[len(shown):]:
         axes.set_visible(False)
     for axes, line, height, table in zip(grid.flat, shown, u, tables):
-        x = np.array(line.x) * x_factor
+        x = p.scale.of(np.array(line.x))
         stack = np.array(table)
         stack /= np.maximum(1, np.nansum(stack, axis=0))  # indices are estimates: their sum may exceed 1
         rest = np.clip(1 - np.nansum(stack, axis=0), 0, None)

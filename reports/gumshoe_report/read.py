@@ -175,5 +175,7 @@ def result(path):
         r.readings = rows(file.get("readings"))
         readings = file.get("readings")
         r.reading_units = {n: plain(d.attrs.get("units", "1")) for n, d in readings.items()} if readings else {}
+        r.reading_display = {n: types.SimpleNamespace(**attributes(d)) for n, d in (readings or {}).items()
+                             if "display_units" in d.attrs}
         r.failures, r.notes = texts(file, "failures"), texts(file, "notes")
     return r

@@ -2,16 +2,19 @@
 import math
 import types
 
-from .explain import APART, drawn_uncertainty, heavier
+from .explain import APART, drawn_uncertainty, heavier, listed
 from .rounding import after, finer, percent, significant, unit_text
 from .tables import independent, spread
 
 LISTED, WORTH = 5, 0.01  # rows; the least share of the variance that is worth an effort
+OF_THE_DATA = "stated for every indication"  # the program's own words for `u` of an indication
 
 
 def how(components):
     """What to do about a quantity, by how it was evaluated."""
     sources = list(dict.fromkeys(c.source for c in components if c.source))
+    if components and all(c.source == OF_THE_DATA for c in components):
+        return "more indications in a reading: four times as many halve it"
     if components and all(c.evaluation == "A" for c in components):
         return "more observations: four times as many halve it"
     if len(sources) == 1 and sources[0].startswith("step "):
@@ -59,6 +62,14 @@ def unknown(b, u_monte_carlo, shapley):
     return sentence(text + f"Set sensitivity = {{ {study} }} in [analysis] to obtain the share of each quantity.")
 
 
+def without_u(b):
+    """In place of the table, where no standard uncertainty exists that anything could reduce."""
+    few = [c.name for c in b.rows if c.evaluation == "A" and c.distribution == "t" and c.degrees_of_freedom <= 2]
+    return sentence("No standard uncertainty exists, so that no quantity has a share of it." + (
+        f" More observations of {listed(few)} would give it one: a t distribution has a standard uncertainty only with more "
+        "than 2 degrees of freedom." if few else ""))
+
+
 def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True):
     """Rows and a sentence; None where no shares are known.
 
@@ -66,6 +77,8 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
     law of propagation accounts for the variance by Monte Carlo (explain.law_accounts)."""
     if b is None:
         return None
+    if not math.isfinite(u_monte_carlo):
+        return without_u(b)
     correlated = abs(b.correlation_share) > WORTH
     if not math.isfinite(b.correlation_share):  # no budget: Shapley effects in place of Sobol' indices are a sign of correlation
         correlated = shapley is not None and sobol is None
@@ -80,7 +93,7 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
         return unknown(b, u_monte_carlo, shapley)
     u = drawn_uncertainty(b) if law else u_monte_carlo
     parts = sorted((p for p in everything if p[2] >= WORTH), key=lambda p: -p[2])
-    if not parts or not math.isfinite(u) or u <= 0:
+    if not parts or u <= 0:
         return None
     unit, factor = finer(b.display_units, spread(b, u))
     show = lambda share: significant(factor * spread(b, u * math.sqrt(max(0.0, 1 - share))))

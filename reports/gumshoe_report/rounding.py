@@ -8,6 +8,7 @@ FINER = {"m": ("mm", 1e3), "mm": ("um", 1e3), "deg": ("arcsec", 3600.0), "rad": 
 # Units to show where a column has only its SI unit.
 COMMON = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi), "m/s": ("mm/min", 6e4), "rad/s": ("rpm", 30 / math.pi)}
 SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "degF": "°F", "urad": "µrad"}
+DOUBLE = 15  # decimal digits that every double has
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -42,6 +43,20 @@ def decimals(u, digits=2):
     return places - 1 if round(u, places) >= 10 ** (digits - places) else places
 
 
+def far_from_the_point(value, places):
+    """A value at a place so far from the decimal point that an exponent is shorter, unless the value itself is near it."""
+    power = math.floor(math.log10(abs(value))) if value else 0
+    digits = places + power  # after the first
+    if not value or digits < 0:
+        return "0"
+    if digits >= DOUBLE:
+        return f"{value:.{DOUBLE}g}"
+    if places > 0 and -4 <= power < 5:
+        return f"{value:.{places}f}"
+    mantissa, exponent = f"{value:.{digits}e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
 def fixed(value, places):
     """A value at a decimal place; `places` None shows six significant digits."""
     if not math.isfinite(value):
@@ -49,12 +64,12 @@ def fixed(value, places):
     if places is None:
         text = f"{value:.6g}"
     elif places > 9 or places < -15:
-        text = f"{value:.{max(1, places + math.floor(math.log10(abs(value) or 1)))}e}"
+        text = far_from_the_point(value, places)
     else:
         text = f"{round(value, places):.{max(places, 0)}f}"
     if float(text) == 0:
         text = text.lstrip("-")
-    return text.replace("-", "−", 1) if text.startswith("-") else text
+    return text.replace("-", "−")
 
 
 def significant(value, digits=2):
@@ -94,6 +109,25 @@ def probability(p):
         return "<\u202f0.0000000001\u202f%" if p < 0.5 else ">\u202f99.9999999999\u202f%"
     text = f"{100 * p:.{max(2, -math.floor(math.log10(rest)))}f}"
     return text.rstrip("0").rstrip(".") + "\u202f%"
+
+
+def resolved(p, least):
+    """A probability from samples that resolve `least` and no less, as probability_text() of the engine writes it: with as
+    many digits as the smaller of both sides needs, and a bound in place of 0 and 100 %."""
+    if not math.isfinite(p):
+        return "–"
+    if p < least or 1 - p < least:
+        scale = 10.0 ** math.floor(math.log10(least))
+        bound = math.ceil(least / scale * (1 - 1e-9)) * scale  # one digit, to the side on which it holds
+        text = fixed(100 * (bound if p < least else 1 - bound), max(0, -math.floor(math.log10(100 * bound) + 1e-9)))
+        return f"{'<' if p < least else '>'}\u202f{text}\u202f%"
+    rest = 100 * min(p, 1 - p)
+    return fixed(100 * p, max(0, min(9, 2 - math.floor(math.log10(rest))))) + "\u202f%"
+
+
+def degrees_of_freedom(n):
+    text = f"{n:.4g}" if math.isfinite(n) else "–"
+    return f"{text} degree{'' if text == '1' else 's'} of freedom"
 
 
 def thousands(n):

@@ -2,10 +2,11 @@
 import math
 import types
 
-from .rounding import after, decimals, finer, fixed, percent, probability, significant, unit_text
+from .rounding import after, decimals, degrees_of_freedom, finer, fixed, percent, probability, resolved, significant, unit_text
 from .tables import point, spread
 
 NONE = "–"
+EXACT = 1e-8  # a probability without samples is stated to this
 
 
 def index(row, key, places=3):
@@ -131,7 +132,7 @@ def fit(study, outputs):
     tested = math.isfinite(study.chi_squared)
     unit, show = in_finer_unit(study, study.scatter) if scaled else ("", None)
     return types.SimpleNamespace(
-        meaning=study.meaning, equations=study.equations, freedom=f"{study.degrees_of_freedom:.4g}" if math.isfinite(study.degrees_of_freedom) else NONE,
+        meaning=study.meaning, equations=study.equations, freedom=degrees_of_freedom(study.degrees_of_freedom),
         s=show(study.scatter) + (f"\u202f{unit}" if unit else "") if scaled else "",
         chi_squared=significant(study.chi_squared, 3) if tested else "",
         probability=chance(study.probability) if tested else "",
@@ -159,48 +160,53 @@ def circular(row, output):
                               shortest=(show(output.shortest_low), show(output.shortest_high))))
 
 
-def chance(p, se=math.nan):
-    """A probability with as many digits as its standard error allows."""
-    if not math.isfinite(p):
-        return NONE
-    if p < 5e-9:
-        return "0\u202f%"
-    if not (math.isfinite(se) and se > 0):
-        return significant(100 * p, 3) + "\u202f%"
-    places = max(0, min(4, decimals(100 * se)))
+def chance(p, se=math.nan, least=0.0):
+    """A probability with as many digits as its standard error allows; a bound where samples do not resolve it."""
+    if not (math.isfinite(se) and se > 0) or not least <= p <= 1 - least:
+        return resolved(p, least or EXACT)
+    places = max(0, min(9, decimals(100 * se)))
     return f"({fixed(100 * p, places)} ± {fixed(100 * se, places)})\u202f%"
 
 
+def places_of_test(c, output):
+    """Decimal places of limits and estimate, by U and guard band as in the statement."""
+    U = getattr(output, "expanded_uncertainty", math.nan)
+    if not math.isfinite(U):
+        U = (getattr(output, "symmetric_high", math.nan) - getattr(output, "symmetric_low", math.nan)) / 2
+    known = [p for p in (decimals(spread(c, U) / 2), decimals(spread(c, abs(c.guard_band)))) if p is not None]
+    return max(0, *known) if known else None
+
+
 def conformity(c, output):
-    places = decimals(spread(c, output.standard_uncertainty if output and math.isfinite(output.standard_uncertainty)
-                            else math.nan))
+    places = places_of_test(c, output)
+    least = getattr(c, "least_risk", 0.0)
     show = lambda value: fixed(point(c, value), places)
     at = lambda *keys: [show(getattr(c, k)) for k in keys]
     get = lambda key: getattr(c, key, math.nan)
     risks = []
     if math.isfinite(c.specific_consumer_risk):
-        risks.append(("specific consumer’s risk", chance(c.specific_consumer_risk, c.conformance_probability_se),
+        risks.append(("specific consumer’s risk", chance(c.specific_consumer_risk, c.conformance_probability_se, least),
                       "this item was accepted; the probability that it does not conform, 1 − p_c"))
     if math.isfinite(c.specific_producer_risk):
-        risks.append(("specific producer’s risk", chance(c.specific_producer_risk, c.conformance_probability_se),
+        risks.append(("specific producer’s risk", chance(c.specific_producer_risk, c.conformance_probability_se, least),
                       "this item was rejected; the probability that it conforms, p_c"))
     if math.isfinite(get("posterior_conformance")):
-        risks.append(("p_c, with the process", chance(c.posterior_conformance, get("posterior_conformance_se")),
+        risks.append(("p_c, with the process", chance(c.posterior_conformance, get("posterior_conformance_se"), least),
                       "conformance probability from this measurement and the process together"))
     if math.isfinite(c.process_conformance):
-        risks.append(("process conformance", chance(c.process_conformance),
+        risks.append(("process conformance", chance(c.process_conformance, least=1e-6),
                       f"share of the process that conforms, before measuring; mean {show(c.process_mean)}, "
                       f"standard deviation {fixed(spread(c, c.process_u), places)}{unit_after(c)}"))
     if math.isfinite(c.global_consumer_risk):
-        risks.append(("global consumer’s risk R_C", chance(c.global_consumer_risk, get("global_consumer_risk_se")),
+        risks.append(("global consumer’s risk R_C", chance(c.global_consumer_risk, get("global_consumer_risk_se"), least),
                       "the probability that an item of the process does not conform and is accepted by such a measurement"))
-        risks.append(("global producer’s risk R_P", chance(c.global_producer_risk, get("global_producer_risk_se")),
+        risks.append(("global producer’s risk R_P", chance(c.global_producer_risk, get("global_producer_risk_se"), least),
                       "the probability that an item of the process conforms and is rejected by such a measurement"))
     return types.SimpleNamespace(
         name=c.name, unit=unit_text(c.display_units), estimate=show(c.estimate), accepted=bool(c.accepted),
         tolerance=at("lower", "upper"), acceptance=at("acceptance_lower", "acceptance_upper"),
         guard=fixed(spread(c, c.guard_band), places), guarded=c.guard_band != 0, statement=c.statement,
-        p_c=chance(c.conformance_probability, c.conformance_probability_se), risks=risks)
+        p_c=chance(c.conformance_probability, c.conformance_probability_se, least), risks=risks)
 
 
 def unit_after(row):

@@ -3,8 +3,9 @@ import math
 import re
 import types
 
+from . import conditions
 from .explain import cancels
-from .rounding import COMMON, after, decimals, finer, fixed, percent, significant, unit_text
+from .rounding import after, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
 ALIKE = 4            # components of many readings that each have a row of their own
@@ -19,9 +20,27 @@ def spread(row, value):
     return value * row.display_factor
 
 
-def summary_row(o):
+def of_failures(o, show):
+    """What the interval is if the samples without a value had any values: its bounds by rank, where there are some."""
+    low, high = (with_unit(show(end), o.display_units) if math.isfinite(end) else ""
+                 for end in (o.symmetric_low_rank, o.symmetric_high_rank))
+    if low and high:
+        ends = with_unit(f"[{show(o.symmetric_low_rank)}, {show(o.symmetric_high_rank)}]", o.display_units)
+        return f"Whatever their values, the symmetric interval lies within {ends}."
+    if low or high:
+        bound, end = ("upper", f"lower end is at least {low}") if low else ("lower", f"upper end is at most {high}")
+        return f"With so many of them no {bound} bound can be given for the symmetric interval; its {end}."
+    return "With so many of them no bounds can be given for the symmetric interval."
+
+
+def places_of(o):
+    """Decimal places of an output: two digits of u, or of a quarter of the interval where no u exists."""
     width = (o.shortest_high - o.shortest_low) / 4
-    places = decimals(spread(o, o.standard_uncertainty if math.isfinite(o.standard_uncertainty) else width))
+    return decimals(spread(o, o.standard_uncertainty if math.isfinite(o.standard_uncertainty) else width))
+
+
+def summary_row(o):
+    places = places_of(o)
     show = lambda value: fixed(point(o, value), places)
     total = o.valid + o.failed
     return types.SimpleNamespace(
@@ -30,7 +49,7 @@ def summary_row(o):
         u=fixed(spread(o, o.standard_uncertainty), places), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
         shortest=(show(o.shortest_low), show(o.shortest_high)),
         failed=f"{o.failed} of {total}" if o.failed else "",
-        rank=(show(o.symmetric_low_rank), show(o.symmetric_high_rank)) if o.failed else None,
+        rank=of_failures(o, show) if o.failed else "",
         estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
         skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning,
         tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
@@ -54,7 +73,7 @@ def diagnostic_text(o):
     """A figure that says how the evaluation went: its value, or the range that holds most of its values."""
     if constant(o):
         return constant_text(o)
-    places = decimals(spread(o, o.standard_uncertainty))
+    places = places_of(o)
     ends = " to ".join(fixed(point(o, x), places) for x in (o.symmetric_low, o.symmetric_high))
     return f"{o.name} {with_unit(ends, o.display_units)}"
 
@@ -74,7 +93,7 @@ def numbered(outputs):
         u = o.standard_uncertainty
         if constant(o):
             return fixed(point(o, o.estimate), None), ""
-        return fixed(point(o, o.estimate), decimals(spread(o, u))), significant(spread(o, u))
+        return fixed(point(o, o.estimate), places_of(o)), significant(spread(o, u))
     return types.SimpleNamespace(
         hidden="seen" in stems and any(o.symmetric_low < 1 for o in stems["seen"].values()),
         heads=[(name, unit_text(rows[numbers[0]].display_units), not all(map(constant, rows.values())))
@@ -158,8 +177,8 @@ def budget(b, u_monte_carlo=math.nan, sobol=None):
     u = b.combined_standard_uncertainty
     dof = b.effective_degrees_of_freedom
     fine, factor = finer(b.display_units, spread(b, u) if u > 0 else abs(spread(b, u_monte_carlo)))
-    moved = [f"second-order terms change u_c to {significant(spread(b, b.second_order_uncertainty))} and shift the mean "
-             f"by {significant(spread(b, b.second_order_bias))} {unit_text(b.display_units)}"] \
+    moved = [f"second-order terms change u_c to {with_unit(significant(spread(b, b.second_order_uncertainty)), b.display_units)} and shift the mean "
+             f"by {with_unit(significant(spread(b, b.second_order_bias)), b.display_units)}"] \
         if u > 0 and (abs(b.second_order_uncertainty / u - 1) > 0.05 or abs(b.second_order_bias) > 0.1 * u) else []
     alone = math.hypot(*(c.contribution for c in b.rows if math.isfinite(c.contribution)))
     without_shares = [f"the inputs are correlated, and their contributions of {significant(factor * spread(b, alone))}{after(fine)} cancel to "
@@ -188,7 +207,8 @@ def validation_row(v):
 
 
 def comparison_row(c):
-    places = decimals(spread(c, c.standard_uncertainty))
+    u = c.standard_uncertainty if math.isfinite(c.standard_uncertainty) else c.expanded_uncertainty / 2
+    places = decimals(spread(c, u))
     show = lambda value: fixed(spread(c, value), places)
     return types.SimpleNamespace(
         name=c.name, unit=unit_text(c.display_units), d=show(c.difference), u=show(c.standard_uncertainty),
@@ -216,11 +236,11 @@ def input_row(i):
 
 
 def readings(r):
-    """Head and rows of the readings table; SI columns in the unit common in a workshop."""
+    """Head and rows of the readings table."""
     names = [n for n in (vars(r.readings[0]) if r.readings else {}) if n not in ("label", "repeats")]
-    shown = {n: COMMON.get(r.reading_units[n], (r.reading_units[n], 1.0)) for n in names}
-    heads = [f"{n} ({unit_text(shown[n][0])})" if unit_text(shown[n][0]) else n for n in names]
-    lines = [[f"{getattr(row, n) * shown[n][1]:.10g}".replace("-", "−") for n in names] for row in r.readings]
+    shown = {n: conditions.scale(r, n) for n in names}
+    heads = [f"{n} ({unit_text(shown[n].unit)})" if unit_text(shown[n].unit) else n for n in names]
+    lines = [[shown[n].number(getattr(row, n)) for n in names] for row in r.readings]
     if not names and len(r.readings) < 2:  # nothing was read and nothing commanded
         return types.SimpleNamespace(heads=[], lines=[])
     return types.SimpleNamespace(heads=heads, lines=[(row.label, row.repeats, line)

@@ -48,6 +48,26 @@ seed = 1
 """
 
 
+# A condition whose unit is not the one in SI, nor the one common in a workshop.
+ALONG = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+E = { formula = "V - S * %s", unit = "mV" }
+[conditions]
+%s = { spread = ["%s", "%s"], readings = 12 }
+[quantities.S]
+value = "%s"
+u = "%s"
+[indications.V]
+components = [ { u = "0.2 mV", per = "reading" } ]
+readings = [%s]
+[run]
+samples = 40000
+"""
+READINGS = ", ".join(f'"{60 + k} mV"' for k in range(12))
+
+
 def table(points):
     lines = ["line,point,theta_deg,radius_mm,time_s,d_um"]
     for line, radius in (("inner", 70), ("outer", 71)):
@@ -120,6 +140,25 @@ costs = { e_x = 1 }
         r, page = self.report(4)
         self.assertEqual(list(profile.of(r, r.outputs)), [])
         self.assertFalse("Which quantity matters where" in page)
+
+    def test_a_condition_has_the_unit_of_the_scenario(self):
+        for low, high, unit, scale, S, u in (("10 degC", "70 degC", "°C", (1, -273.15), "0.2 mV/K", "1 %"),
+                                             ("50 degF", "170 degF", "°F", (1.8, -459.67), "0.2 mV/K", "1 %"),
+                                             ("0.1 kbar", "10 kbar", "kbar", (1e-8, 0), "0.1 mV/kbar", "90 %")):
+            r, page = self.report(1, ALONG % ("X", "X", low, high, S, u, READINGS))
+            p, = profile.of(r, r.outputs)
+            self.assertEqual((p.scale.of(0.0), p.scale.of(1.0) - p.scale.of(0.0)), (scale[1], scale[1] + scale[0] - scale[1]))
+            for x, o in zip(p.lines[0].x, p.lines[0].outputs):
+                self.assertIn(f"[X {p.scale.number(x)} ", o.name)
+            last = p.scale.text(p.lines[0].x[-1])
+            self.assertTrue(f", at X = {last}, and smallest, " in page)
+            self.assertTrue(f">X, {unit}</text>" in page)
+            self.assertTrue(f">X ({unit})<" in page)  # the table of the readings
+
+    def test_an_even_uncertainty_has_no_place(self):
+        _, page = self.report(1, ALONG % ("X", "X", "10 degC", "70 degC", "0.2 mV/K", "0.01 %", READINGS))
+        self.assertTrue("The standard uncertainty of E is 0.20\u202fmV at every X. On average its variance is due to V" in page)
+        self.assertFalse("largest, " in page)
 
     def test_shares_add_up_along_the_line(self):
         r = self.r

@@ -14,7 +14,7 @@ from program import GUMSHOE, ROOT, InOneFolder
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import csv_tables, explain, page, read, reduce, rounding, tables, workbook
+from gumshoe_report import csv_tables, explain, page, read, reduce, rounding, studies, tables, workbook
 
 # Units that differ from those of the inputs in scale: a temperature in degF, a difference of voltages in mV.
 UNITS = """schema = 1
@@ -72,6 +72,19 @@ kind = "pearson"
 coefficient = %s
 [analysis]
 sensitivity = { shapley = 256 }
+"""
+
+
+# Fails where x is negative.
+ROOT_OF = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "sqrt(x)"
+[quantities]
+x = { value = %s, u = 0.1 }
+[run]
+max_failed_share = 0.5
 """
 
 
@@ -188,6 +201,22 @@ class Reduced(Runs):
         self.assertAlmostEqual(float(row.half), 1e6 * halved, delta=0.1)
         self.assertIn(f"from {rounding.significant(1e6 * u)}\u202fµm", found.text)
 
+    def test_without_a_standard_uncertainty_nothing_is_claimed_of_it(self):
+        for x in ('["1.00 mm", "1.02 mm", "1.01 mm"]', '["1.00 mm", "1.02 mm"]'):
+            text = LINEAR.replace('a = { value = "0 um", u = "%s um"%s }', f"x = {{ observations = {x} }}")
+            u, found = self.reduced(text % "x + b")
+            self.assertFalse(math.isfinite(u))
+            self.assertEqual(found.rows, [])
+            self.assertIn("No standard uncertainty exists", found.text)
+            self.assertIn("More observations of x would give it one", found.text)
+            self.assertNotIn("µm", found.text)
+
+    def test_words_of_the_program_are_no_source_to_better(self):
+        text = LINEAR.replace('a = { value = "0 um", u = "%s um"%s }\n', "") % "x + b"
+        text += '[indications]\nx = { readings = ["1 um"], u = "9 um" }\n'
+        row = next(row for row in self.reduced(text)[1].rows if row.name.startswith("x"))
+        self.assertEqual(row.how, "more indications in a reading: four times as many halve it")
+
     def test_the_terminal_says_the_same(self):
         text = self.ran(TORQUE % LENGTH)
         self.assertRegex(text, r"largest contributions to first order only \(u_c = 0\.00050 N\*m; Monte Carlo gives "
@@ -197,6 +226,40 @@ class Reduced(Runs):
         for linear in (("a + b", 1, ""), ("a + b", 5, ", degrees_of_freedom = 5")):
             self.assertRegex(self.ran(LINEAR % linear),
                              r"(?m)^  largest contributions: [ab] \d\.\d um \(\d+ %\), [ab] ")
+
+
+class Failing(Runs):
+    def test_no_bounds_are_stated_where_too_many_samples_failed(self):
+        words = page.render(self.result(ROOT_OF % 0.1))
+        self.assertIn("With so many of them no bounds can be given for the symmetric interval.", words)
+        self.assertRegex(words, "shift the mean by −0.0[0-9]+\\.")
+        self.assertIn("Whatever their values, the symmetric interval lies within [", page.render(self.result(ROOT_OF % 0.25)))
+
+
+class Conformity(Runs):
+    """The table has the digits and the bounds of the statement above it."""
+
+    def table_of(self, x, limits):
+        text = LINEAR.replace('a = { value = "0 um", u = "%s um"%s }\n', f"x = {{ {x} }}\n").replace("6 um", "1 nm") % "x + b"
+        r = self.result(text + f'[[analysis.conformity]]\nmeasurand = "y"\n{limits}rule = "ilac_g8"\n')
+        return studies.conformity(r.conformity[0], r.outputs[0])
+
+    def test_digits_where_no_standard_uncertainty_exists(self):
+        c = self.table_of('observations = ["1.00 mm", "1.02 mm", "1.01 mm"]', 'lower = "0.9 mm"\nupper = "1.1 mm"\n')
+        self.assertEqual((c.tolerance, c.estimate, c.acceptance, c.guard), (["900", "1100"], "1010", ["925", "1075"], "25"))
+        self.assertIn("from 925 um to 1075 um", c.statement)
+
+    def test_what_the_samples_do_not_resolve_is_a_bound(self):
+        c = self.table_of('value = "1 mm", u = "10 um"', 'lower = "0.9 mm"\nprocess = { value = "1 mm", u = "20 um" }\n')
+        risks = {name: value.replace("\u202f", " ") for name, value, _ in c.risks}
+        self.assertEqual(c.p_c.replace("\u202f", " "), "> 99.994 %")
+        self.assertEqual(risks["specific consumer’s risk"], "< 0.006 %")
+        self.assertEqual(risks["global consumer’s risk R_C"], "< 0.006 %")
+        self.assertEqual(risks["process conformance"], "> 99.9999 %")
+        for value in (c.p_c, *risks.values()):
+            if "±" not in value:
+                self.assertIn(value.replace("\u202f", " "), c.statement)
+            self.assertNotRegex(value, "^0\u202f%|100\\.0|± 0\\.0*\\)")
 
 
 class Cancelling(Runs):
@@ -223,6 +286,14 @@ class Cancelling(Runs):
         printed = self.ran(CANCELLING % 0.4, "--budget")  # 1 + 1 - 0.8 = 1.2
         self.assertRegex(printed, r"largest contributions: a 1\.0 mm \(83 %\), b 1\.0 mm \(83 %\), correlations -67 %\n")
         self.assertIn("-66.7\u202f%".replace("-", "−"), page.render(read.result(self.folder / "s.h5")))
+
+
+class Places(unittest.TestCase):
+    def test_no_more_digits_than_a_double_has_and_zero_is_zero(self):
+        for value, u, text in ((0, 3.2e-16, "0"), (3.2e-15, 1.1e-14, "3e−15"), (-1.234e-12, 1e-13, "−1.23e−12"),
+                               (1e-18, 1e-16, "0"), (1.0, 1e-17, "1"), (1 / 3, 1e-17, "0.333333333333333"),
+                               (0.5, 1e-10, "0.50000000000"), (0, 0.1, "0.00"), (6.0221e23, 1e20, "6.0221e23")):
+            self.assertEqual(rounding.fixed(value, rounding.decimals(u)), text)
 
 
 class Coverage(Runs):

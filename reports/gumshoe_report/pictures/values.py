@@ -1,7 +1,8 @@
 """The scenario's values for a picture: SI numbers to draw with, and their text."""
 import math
 
-from ..rounding import COMMON, after, decimals, fixed
+from ..conditions import scale
+from ..rounding import after, decimals, fixed
 from ..tables import point, spread
 
 
@@ -10,7 +11,8 @@ class Values:
         self.rows = {}
         for row in r.inputs:
             self.rows.setdefault(row.name, row)  # of several labels the first
-        self.conditions, self.units = (vars(r.readings[0]) if r.readings else {}), r.reading_units
+        self.conditions = vars(r.readings[0]) if r.readings else {}
+        self.scale = lambda name: scale(r, name)
         self.readings = [vars(reading) for reading in r.readings or []]
         self.outputs = {o.measurand: o for o in reversed(r.outputs)}
         self.axes = r.axes
@@ -34,8 +36,7 @@ class Values:
             row = self.outputs[name]
             value, unit = fixed(point(row, row.estimate), decimals(spread(row, row.standard_uncertainty))), row.display_units
         elif name in self.conditions:
-            unit, factor = COMMON.get(self.units.get(name, "1"), (self.units.get(name, "1"), 1.0))
-            value = fixed(self(name) * factor, None)
+            return f"{called} {self.scale(name).text(self(name))}"
         else:
             return called
         return f"{called} {value}{after(unit)}"
