@@ -141,9 +141,11 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.notes.insert(r.notes.end(), e.remarks().begin(), e.remarks().end());
   r.readings = s.readings;
   for (const auto& c : card.conditions)
-    r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit);
+    r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit),
+        r.condition_shown.emplace_back(c.unit);
   for (const auto& i : card.indications)
-    r.indication_names.emplace_back(i.name), r.indication_units.emplace_back(i.si_unit);
+    r.indication_names.emplace_back(i.name), r.indication_units.emplace_back(i.si_unit),
+        r.indication_shown.emplace_back(i.unit);
   r.equations = equations_of(card, s.evaluation);
   r.axes = axis_records(card);
   r.inputs = input_records(s);

@@ -146,6 +146,7 @@ struct Results {
   std::vector<std::string> notes;
   std::vector<quantities::Reading> readings;
   std::vector<std::string> condition_names, condition_units, indication_names, indication_units; ///< SI units
+  std::vector<std::string> condition_shown, indication_shown; ///< units in which they are stated
   std::vector<Equation> equations;
   std::vector<AxisRecord> axes;
   std::vector<InputRecord> inputs;

@@ -45,17 +45,20 @@ void write_readings(hid_t file, const Results& r) {
   table.texts("label", column(r.readings, [](const auto& reading) { return label_text(reading.labels); }),
               "label values of the reading");
   table.numbers("repeats", column(r.readings, &quantities::Reading::repeats), "1", "readouts averaged in the reading");
-  const auto write_columns = [&](const auto& names, const auto& units, auto member, const std::string& what) {
+  const auto write_columns = [&](const auto& names, const auto& units, const auto& shown, auto member,
+                                 const std::string& what) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::vector<double> values;
       for (const auto& reading : r.readings)
         if (i < (reading.*member).size()) values.push_back((reading.*member)[i]);
-      if (values.size() == r.readings.size() && !values.empty() && !hdf5::has(group, names[i]))
-        table.numbers(names[i], values, units[i], what + names[i]);
+      if (values.size() != r.readings.size() || values.empty() || hdf5::has(group, names[i])) continue;
+      table.numbers(names[i], values, units[i], what + names[i]);
+      write_display(hdf5::own(H5Dopen2(group, names[i].c_str(), H5P_DEFAULT), H5Dclose, "describe a column"), shown[i],
+                    units[i]);
     }
   };
-  write_columns(r.condition_names, r.condition_units, &quantities::Reading::conditions, "condition ");
-  write_columns(r.indication_names, r.indication_units, &quantities::Reading::indications, "indication ");
+  write_columns(r.condition_names, r.condition_units, r.condition_shown, &quantities::Reading::conditions, "condition ");
+  write_columns(r.indication_names, r.indication_units, r.indication_shown, &quantities::Reading::indications, "indication ");
 }
 
 void write_summary(hid_t file, const std::vector<Summary>& rows) {

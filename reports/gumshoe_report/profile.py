@@ -1,8 +1,9 @@
 """Profiles: one measurand at many readings along one condition, such as the azimuth of a scan."""
 import math
+import re
 import types
 
-from .conditions import parts, scale
+from .conditions import scale
 from .explain import cancels, law_accounts, listed
 from .rounding import after, finer, percent, significant
 
@@ -17,6 +18,12 @@ def values(r, outputs):
     names = [n for n in r.reading_units if n not in read]
     found = {n: [getattr(r.readings[int(o.reading)], n, math.nan) for o in outputs] for n in names}
     return {n: v for n, v in found.items() if all(map(math.isfinite, v))}
+
+
+def parts(name):
+    """Labels and conditions in the name of an output: deviation[line 1, theta 50 deg]."""
+    inside = re.search(r"\[(.*)\]$", name)
+    return inside[1].split(", ") if inside else []
 
 
 def along(conditions):
