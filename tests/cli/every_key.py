@@ -247,7 +247,7 @@ decimal = "."
 labels = { w = "w" }
 units = { r = "mm" }
 where = { w = ["a", "b"] }
-conditions = { s = { column = "w", map = { a = 1, b = -1 } }, p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, way = { column = "r", sense = true } }
+conditions = { s = { column = "w", map = { a = 1, b = -1 } }, p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M", since = "08:00" }, way = { column = "r", sense = true } }
 [quantities]
 g = { value = 1, estimated = true }
 h = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm", delimiter = ",", header = 1, first_row = 2 } }
@@ -257,10 +257,10 @@ u = { column = "r", unit = "mm" }
 [indications.y]
 readings = { column = "r", unit = "mm", where = { w = ["a", "b"] } }
 [indications.z]
-readings = { file = "values.csv", delimiter = ",", header = 1, first_row = 2, repeats = "mean", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } }, way = { column = "r", sense = true } } }
+readings = { file = "values.csv", delimiter = ",", header = 1, first_row = 2, repeats = "mean", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M", since = "08:00" }, s = { column = "w", map = { a = 1, b = -1 } }, way = { column = "r", sense = true } } }
 [trace]
 blocks = { every = "1 min", of = "t" }
-columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" }, n = { counts = "readings" }, o = { column = "v", sense = true } }
+columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M", since = "08:00" }, n = { counts = "readings" }, o = { column = "v", sense = true } }
 ''',
     "logs": '''
 schema = 1
