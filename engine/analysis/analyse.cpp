@@ -69,7 +69,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
     text +=
         fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}{}", fixed(U, decimals_for(U)), unit, b.coverage_factor,
                     std::isfinite(b.effective_degrees_of_freedom)
-                        ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
+                        ? fmt::format(" ({})", effective_freedom(b.effective_degrees_of_freedom))
                         : "",
                     v.verdict == "validated" ? uncertainty_of_factor(s, b) : "");
     if (!b.remark.empty()) text += "; " + b.remark;

@@ -19,8 +19,7 @@ std::string certificate_line(const Summary& s, double p) {
       fmt::format("{} +- {}", fixed(units::from_si(s.estimate, o.unit, o.si_unit), d), fixed(expanded, d));
   return fmt::format(
       "{} = {}, k = {:.2f}{}, {}", o.name, o.unit == "1" ? pair : "(" + pair + ") " + o.unit, s.coverage_factor,
-      std::isfinite(s.degrees_of_freedom) ? fmt::format(" ({:.0f} effective degrees of freedom)", s.degrees_of_freedom)
-                                          : "",
+      std::isfinite(s.degrees_of_freedom) ? fmt::format(" ({})", effective_freedom(s.degrees_of_freedom)) : "",
       coverage_text(p));
 }
 

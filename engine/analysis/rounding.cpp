@@ -50,6 +50,10 @@ std::string with_suitable_unit(double si, const std::string& unit, const std::st
   return (x == 0 ? "0" : fixed(x, decimals_for(std::fabs(x)))) + units::suffix(in);
 }
 
+std::string effective_freedom(double n) {
+  return fmt::format("{:.0f} effective degree{} of freedom", n, n == 1 ? "" : "s");
+}
+
 std::string probability_text(double p, double least) {
   const auto percent = [](double x) {
     const double rest = std::fmin(100 * x, 100 - 100 * x); // as many digits as the smaller of both sides needs

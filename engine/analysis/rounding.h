@@ -13,6 +13,9 @@ std::string fixed(double value, int decimals);
 /// A difference or an uncertainty with two digits and its unit, smaller than `unit` where that suits it: "0.052 um".
 std::string with_suitable_unit(double si, const std::string& unit, const std::string& si_unit);
 
+/// "12 effective degrees of freedom".
+std::string effective_freedom(double n);
+
 /// "1 %" or "0.015 %", with the direction of a bound where p is not resolved: "> 99.9997 %", "< 0.0003 %". `least`: a
 /// probability or its complement below it is not known.
 std::string probability_text(double p, double least);

@@ -173,17 +173,18 @@ private:
     const Figures& f = asked(r_.fresh);
     const int d = analysis::decimals_for(shown(f.expanded));
     const auto width = [&](double x) { return analysis::fixed(shown(x), d) + unit; };
+    const std::string bias =
+        choose_.bias ? fmt::format(" with a bias of at most {:.6g}{}", shown(*choose_.bias), unit) : "";
     std::string text;
     if (!r_.reached) {
-      text = fmt::format(
-          "No candidate meets the target U = {:.6g}{}{}. The smallest U reached is {} in {}, with {}",
-          shown(choose_.target), unit,
-          choose_.bias ? fmt::format(" with a bias of at most {:.6g}{}", shown(*choose_.bias), unit) : "",
-          width(f.expanded), duration(r_.fresh.time), in_words(search_.settings_of(r_.fresh.values), r_.evaluations));
+      text = fmt::format("No candidate meets the target U = {:.6g}{}{}. The smallest U reached is {} in {}, with {}",
+                         shown(choose_.target), unit, bias, width(f.expanded), duration(r_.fresh.time),
+                         in_words(search_.settings_of(r_.fresh.values), r_.evaluations));
     } else {
-      text = fmt::format("The fastest setting that meets the target U = {:.6g}{}: {}. It takes {} and reaches U = {}",
-                         shown(choose_.target), unit, in_words(search_.settings_of(r_.fresh.values), r_.evaluations),
-                         duration(r_.fresh.time), width(f.expanded));
+      text =
+          fmt::format("The fastest setting that meets the target U = {:.6g}{}{}: {}. It takes {} and reaches U = {}",
+                      shown(choose_.target), unit, bias, in_words(search_.settings_of(r_.fresh.values), r_.evaluations),
+                      duration(r_.fresh.time), width(f.expanded));
     }
     if (choose_.worst_case) text += fmt::format(" in the worst case, {}", choose_.cases[r_.fresh.worst].name);
     if (choose_.definition == scenario::Choose::Definition::corrected)
@@ -192,6 +193,9 @@ private:
                         r_.probability > 0.9995   ? "more than 0.999"
                         : r_.probability < 0.0005 ? "less than 0.001"
                                                   : fmt::format("{:.3g}", r_.probability));
+    if (r_.confirmed && r_.tried > 1)
+      text += fmt::format(" {} faster setting{} met it in the search only, and not with fresh samples.", r_.tried - 1,
+                          r_.tried == 2 ? "" : "s");
     if (r_.reached && !r_.confirmed)
       text += fmt::format(" No faster or slower setting that was tried meets it with the required probability of "
                           "{:.3g}. Use more samples "

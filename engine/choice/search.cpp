@@ -117,10 +117,14 @@ std::vector<std::size_t> Search::meeting() const {
 }
 
 std::optional<std::size_t> Search::least() const {
+  constexpr double rounding = 1e-12; // of equal U the fastest
   std::optional<std::size_t> best;
+  const auto better = [&](const Candidate& a, const Candidate& b) {
+    const double u = asked(a).expanded, known = asked(b).expanded;
+    return std::fabs(u - known) <= rounding * known ? a.time < b.time : u < known;
+  };
   for (std::size_t i = 0; i < candidates_.size(); ++i)
-    if (usable(candidates_[i]) && (!best || asked(candidates_[i]).expanded < asked(candidates_[*best]).expanded))
-      best = i;
+    if (usable(candidates_[i]) && (!best || better(candidates_[i], candidates_[*best]))) best = i;
   return best;
 }
 

@@ -69,13 +69,12 @@ void print_details(const Results& r, std::size_t o, bool budget) {
     if (v.verdict == "validated")
       std::cout << "; U and k of the GUM framework, validated by Monte Carlo" << uncertainty_of_factor(s, b);
     else if (b.applicable)
-      std::cout << fmt::format(
-          "; U and k by Monte Carlo; GUM framework: U = {} with k = {:.2f}{} ({})", width(b.expanded_uncertainty),
-          b.coverage_factor,
-          std::isfinite(b.effective_degrees_of_freedom)
-              ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
-              : "",
-          v.verdict);
+      std::cout << fmt::format("; U and k by Monte Carlo; GUM framework: U = {} with k = {:.2f}{} ({})",
+                               width(b.expanded_uncertainty), b.coverage_factor,
+                               std::isfinite(b.effective_degrees_of_freedom)
+                                   ? fmt::format(" ({})", effective_freedom(b.effective_degrees_of_freedom))
+                                   : "",
+                               v.verdict);
     else
       std::cout << "; U and k by Monte Carlo";
     std::cout << '\n';

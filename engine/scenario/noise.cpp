@@ -156,9 +156,10 @@ private:
 
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {
     if (repeatability.distribution.family == Family::t && repeatability.degrees_of_freedom <= 2)
-      note(fmt::format("{} indications give a t distribution with {} degree(s) of freedom, which has no standard "
+      note(fmt::format("{} indications give a t distribution with {} degree{} of freedom, which has no standard "
                        "uncertainty: only quantiles are given",
-                       reading.repeats, repeatability.degrees_of_freedom));
+                       reading.repeats, repeatability.degrees_of_freedom,
+                       repeatability.degrees_of_freedom == 1 ? "" : "s"));
     return {repeatability};
   }
 
