@@ -87,7 +87,8 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
     out.read_clock(*table);
   else if (table->has("sense"))
     out.read_sense(*table);
-  else if (out.read_unit(*table) && table->has("map"))
+  else if ((found || !out.unit_.empty()) && out.read_unit(*table) &&
+           table->has("map")) // of no column the unit is unknown
     out.read_map(*table);
   if (table->has("since") && !table->has("clock"))
     table->refuse_key("since", "given without clock", "seconds count from a clock time", "leave it out");

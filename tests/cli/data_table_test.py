@@ -78,6 +78,10 @@ class DataTable(InFolder):
         self.assertEqual(found[8], ("run = 10", "0.5", "-1", f"{7 * 86400 + 60}", "3.9e-06", "4.9e-06"))
         self.assertEqual([f[0] for f in found[::3]], ["run = 3", "run = 4", "run = 10"])  # numbers in their order
 
+    def test_of_a_misspelt_column_no_unit_is_asked_for(self):
+        said = self.refused(('readings = "x_um"', 'readings = "x_mu"'), "has no column 'x_mu'. Did you mean 'x_um'?")
+        self.assertNotIn("unit", said)
+
     def test_seconds_count_from_the_time_stated(self):
         """An hour before the first reading; of other readings, too."""
         at = lambda text: [float(f[3]) for f in self.readings(self.explained(text))]
