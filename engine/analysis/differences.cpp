@@ -72,8 +72,8 @@ Derivatives of_values(const Value& f, const Places& at, const std::vector<double
     return d;
   }
   bool smooth = true;
-  // Beside what the others do, rounding within the model looks like a kink where q does nothing.
-  constexpr double seen_beside = 1e-8;
+  // Rounding within the model looks like a kink where q does nothing: changes so much smaller than the largest are none.
+  constexpr double negligible = 1e-8;
   double largest = 0;
   for (std::size_t q = 0; q < n; ++q)
     if (h[q] > 0) largest = std::fmax(largest, std::fabs(f(lines[q].up) - d.value));
@@ -93,7 +93,7 @@ Derivatives of_values(const Value& f, const Places& at, const std::vector<double
     const double bent = (up - 2 * d.value + down) / (h[q] * h[q]),
                  half_bent = 4 * (half_up - 2 * d.value + half_down) / (h[q] * h[q]);
     curvature[q] = (4 * half_bent - bent) / 3;
-    const bool seen = std::max(std::fabs(up - d.value), std::fabs(down - d.value)) > seen_beside * largest;
+    const bool seen = std::max(std::fabs(up - d.value), std::fabs(down - d.value)) > negligible * largest;
     if (!std::isfinite(d.first[q]) || (seen && is_kink(up, down, half_up, half_down, d.value))) {
       d.differentiable[q] = smooth = false;
       d.first[q] = nan;

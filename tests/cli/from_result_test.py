@@ -127,8 +127,8 @@ class FromResult(Lengths):
                      "one error has one uncertainty")
 
     def test_what_is_left_of_a_result_less_an_error_of_it_is_the_rest(self):
-        """A mean of five observations beside a reference: the draws' t has twice the variance of the framework's u."""
-        few = self.ran("beside", 'y = "reference + d"', 'reference = { value = "100 mm", u = "5 um" }\n'
+        """A reference and the mean of five observations: the variance of the t drawn is twice the framework's u squared."""
+        few = self.ran("with_mean", 'y = "reference + d"', 'reference = { value = "100 mm", u = "5 um" }\n'
                        'd = { value = "0 mm", u = "4 um", degrees_of_freedom = 4 }')
         out = self.ran("rest", 'y = "x - reference"', f'x = {{ from = "{few.name}:y", same = ["reference"] }}\n'
                        'reference = { value = "100 mm", u = "5 um" }')

@@ -334,7 +334,7 @@ private:
     out_.noise.outliers = static_cast<int>(out_.outliers.size());
   }
 
-  /// Each in its own unit, larger than the root of its mean square as the whole is.
+  /// Root mean squares by indication, in its own unit, corrected for degrees of freedom by the factor of the whole.
   void fill_indications() {
     const auto cards = c_.experiment.model().card->indications;
     for (const VariableCard& card : cards)
