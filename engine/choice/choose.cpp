@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -90,25 +91,33 @@ private:
 
   /// The numbers that chose a candidate flatter it: fresh ones decide.
   void confirm(const std::vector<std::size_t>& meeting) {
-    double failed = INFINITY;
     for (const std::size_t i : meeting) {
-      if (asked(search_.candidates()[i]).expanded >= failed) continue; // with common numbers it would fail too
+      if (is_refuted(i)) continue;
       Candidate fresh = afresh(i);
       const double p = probability(fresh);
       r_.confirmed = p >= choose_.confirm_probability;
       if (probability_below(asked(fresh).expanded, asked(fresh).expanded_se, choose_.target) <
           choose_.confirm_probability)
-        failed = asked(search_.candidates()[i]).expanded; // and not the bias alone
+        failed_ = asked(search_.candidates()[i]).expanded; // and not the bias alone
+      if (!r_.confirmed) refuted_.insert(i);
       if (r_.tried == 1 || p > r_.probability) take(i, std::move(fresh));
       if (r_.confirmed || r_.tried == most_tried) return;
     }
   }
 
+  /// Whether a candidate failed with fresh numbers, or would: with common numbers one of a U as large as one that
+  /// failed.
+  bool is_refuted(std::size_t candidate) const {
+    const Candidate& c = search_.candidates()[candidate];
+    return refuted_.contains(candidate) || (c.meets && asked(c).expanded >= failed_);
+  }
+
   void near() {
     const auto& all = search_.candidates();
     r_.near.resize(choose_.variables.size());
-    for (const Candidate& c : all) {
-      if (!c.meets || c.time > (1 + choose_.near) * all[r_.best].time) continue;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Candidate& c = all[i];
+      if (!c.meets || is_refuted(i) || c.time > (1 + choose_.near) * all[r_.best].time) continue;
       for (std::size_t v = 0; v < r_.near.size(); ++v) {
         Span& span = r_.near[v];
         span.low = r_.near_count == 0 ? c.values[v] : std::min(span.low, c.values[v]);
@@ -126,6 +135,7 @@ private:
     r_.coverage_probability = s_.analysis.coverage_probability;
     r_.seed = s_.run.seed;
     r_.candidates = search_.candidates();
+    for (std::size_t i = 0; i < r_.candidates.size(); ++i) r_.candidates[i].refuted = is_refuted(i);
     r_.skipped = search_.skipped();
     r_.skipped_why = search_.skipped_why();
     r_.resolution = search_.resolution();
@@ -193,9 +203,9 @@ private:
                         r_.probability > 0.9995   ? "more than 0.999"
                         : r_.probability < 0.0005 ? "less than 0.001"
                                                   : fmt::format("{:.3g}", r_.probability));
-    if (r_.confirmed && r_.tried > 1)
-      text += fmt::format(" {} faster setting{} met it in the search only, and not with fresh samples.", r_.tried - 1,
-                          r_.tried == 2 ? "" : "s");
+    if (const auto refuted = std::ranges::count_if(r_.candidates, &Candidate::refuted); r_.confirmed && refuted > 0)
+      text += fmt::format(" {} setting{} met it in the search and {} not confirmed by fresh samples.", refuted,
+                          refuted == 1 ? "" : "s", refuted == 1 ? "was" : "were");
     if (r_.reached && !r_.confirmed)
       text += fmt::format(" No faster or slower setting that was tried meets it with the required probability of "
                           "{:.3g}. Use more samples "
@@ -209,6 +219,8 @@ private:
   const Settings& settings_;
   Search search_;
   Result r_;
+  double failed_ = INFINITY;      ///< least U in the search of a candidate that failed by its U
+  std::set<std::size_t> refuted_; ///< candidates that failed
 };
 
 /// Four significant digits, and 12000 rather than 1.2e+04.

@@ -85,6 +85,8 @@ constexpr Field<C> compared_with_target[] = {
     {"asked_se", judged<&F::expanded_se>, output, "Monte Carlo standard error of it"},
     {"meets", known<&Candidate::meets>, one, "1 if target and limit of the bias are met by these numbers", in_both}};
 constexpr Field<C> searched[] = {
+    {"refuted", known<&Candidate::refuted>, one,
+     "1 if it meets them in the search, and not with fresh samples, or would not", in_both},
     {"setting", of<&C::setting>, one, "setting in words"},
     {"pareto", known<&Candidate::pareto>, one, "1 if nothing tried beats it in both time and U", in_both},
     {"round", known<&Candidate::round>, one, "0: coarse grid, then refinements, last the optimum's neighbours",

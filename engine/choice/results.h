@@ -28,6 +28,7 @@ struct Candidate {
   std::size_t worst = 0;      ///< case of the largest U
   int round = 0;              ///< 0: coarse grid; then refinements; one more: neighbours of the optimum
   bool meets = false;         ///< the target and the limit of the bias, by these numbers
+  bool refuted = false;       ///< meets it by these numbers, and not by fresh ones, or would not
   bool pareto = false;        ///< nothing is faster with less U
 };
 

@@ -74,7 +74,9 @@ void print_text(const Result& r, const std::string& file) {
     std::cout << fmt::format("instead {} {}{}: time {:+.1f} %, U {:+.1f} %{}\n", knob.name,
                              value_text(r, n.variable, c.values[n.variable], 4), units::suffix(knob.unit),
                              100 * (n.time_ratio - 1), 100 * (n.expanded_ratio - 1),
-                             c.meets ? "" : ", misses the target");
+                             !c.meets    ? ", misses the target"
+                             : c.refuted ? ", not confirmed by fresh samples"
+                                         : "");
   }
   if (r.near_count > 1) {
     std::string text;
@@ -102,8 +104,11 @@ void print_text(const Result& r, const std::string& file) {
     const Candidate& c = r.candidates[front[k]];
     if (k % step != 0 && k + 1 != front.size() && front[k] != r.best) continue;
     std::cout << fmt::format("  {:>12}  {:>12}  {}{}\n", choice::duration(c.time),
-                             width(r, asked(c, worst).expanded, asked(c, worst).expanded), choice::in_words(r, c.values),
-                             front[k] == r.best ? "  <- recommended" : "");
+                             width(r, asked(c, worst).expanded, asked(c, worst).expanded),
+                             choice::in_words(r, c.values),
+                             front[k] == r.best ? "  <- recommended"
+                             : c.refuted        ? "  not confirmed by fresh samples"
+                                                : "");
   }
   for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
   for (const std::string& why : r.skipped_why) std::cout << "skipped: " << why << '\n';
@@ -119,7 +124,7 @@ void print_csv(const Result& r) {
   const std::string unit = r.unit == "1" ? "" : " (" + r.unit + ")";
   std::cout << fmt::format("time (s),U{0},U_se{0},bias{0},bias_se{0},standard_deviation{0},", unit);
   for (const auto& c : r.asked.cases) std::cout << fmt::format("U[{0}]{1},left[{0}]{1},", c.name, unit);
-  std::cout << "meets,pareto,recommended,round,failed\n";
+  std::cout << "meets,refuted,pareto,recommended,round,failed\n";
   for (std::size_t i = 0; i < r.candidates.size(); ++i) {
     const Candidate& c = r.candidates[i];
     for (std::size_t v = 0; v < c.values.size(); ++v) std::cout << value_text(r, v, c.values[v], 15) << ',';
@@ -129,7 +134,8 @@ void print_csv(const Result& r) {
       std::cout << fmt::format(",{:.9g}", length(r, x));
     for (const Figures& f : c.cases)
       std::cout << fmt::format(",{:.9g},{:.9g}", length(r, f.expanded), length(r, f.left));
-    std::cout << fmt::format(",{:d},{:d},{:d},{},{}\n", c.meets, c.pareto, i == r.best, c.round, c.average.failed);
+    std::cout << fmt::format(",{:d},{:d},{:d},{:d},{},{}\n", c.meets, c.refuted, c.pareto, i == r.best, c.round,
+                             c.average.failed);
   }
 }
 

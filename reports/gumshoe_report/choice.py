@@ -8,7 +8,6 @@ from .tables import point, spread
 SPACE = "\u202f"
 LISTED = 40  # rows of the front and of failing candidates on the page
 NOT_CONFIRMED = "not confirmed by fresh samples"
-TRIED = 20   # candidates that are run afresh at most
 MOST = 400   # rows of all candidates; the CSV table has all
 
 
@@ -51,24 +50,9 @@ def axis_label(name, units):
     return name.replace("_", " ") + (f", {unit_text(units)}" if unit_text(units) else "")
 
 
-def refuted(c):
-    """Candidates, by position, that met the target in the search and not with fresh samples.
-
-    Candidates that meet it are run afresh in the order of their times until one is confirmed, TRIED at most. One is passed
-    over where its U is no smaller than that of one that failed: with common random numbers it would fail, too. The one
-    taken is the confirmed one, or the likeliest."""
-    best = int(c.best)
-    if not c.reached or not c.candidates[best].meets:
-        return frozenset()
-    order = lambda k: (c.candidates[k].time, c.candidates[k].asked, k)
-    meeting = {k for k, row in enumerate(c.candidates) if row.meets}
-    before = {k for k in meeting if order(k) < order(best)}
-    if not c.confirmed:
-        return frozenset(meeting if c.tried < TRIED else before | {best})
-    if math.isfinite(c.bias_limit):
-        return frozenset(before)
-    least = min((c.candidates[k].asked for k in before), default=math.inf)  # what failed, failed by its U
-    return frozenset(before | {k for k in meeting if c.candidates[k].asked >= least} - {best})
+def refuted(row):
+    """Whether a candidate met the target in the search and not with fresh samples; older files do not say so."""
+    return bool(getattr(row, "refuted", 0))
 
 
 class Choice:
@@ -82,7 +66,7 @@ class Choice:
         self.unit = unit_text(c.display_units)
         self.corrected = c.definition == "corrected"
         self.worst, self.bounded = c.target_of == "worst_case", math.isfinite(c.bias_limit)
-        self.refuted = refuted(c)
+        self.refuted = sum(map(refuted, c.candidates))
         self.chooses_evaluation = any(v.kind == "evaluation" for v in c.variables)
 
     def digits(self, U):
@@ -159,12 +143,9 @@ class Choice:
         return (f"This U holds after a correction: {verb} {with_unit(size, self.c.display_units)} {end} every result, "
                 f"whose mean error is {self.length(self.fresh.mean)}.")
 
-    def fails_afresh(self, row):
-        return any(self.c.candidates[k] is row for k in self.refuted)
-
     def unconfirmed(self):
         """What became of candidates that met the target in the search only, in words."""
-        count = len(self.refuted)
+        count = self.refuted
         if not count:
             return ""
         met = "1 candidate" if count == 1 else f"{count} candidates"
@@ -178,7 +159,7 @@ class Choice:
         """Why a candidate does not meet the target; "" if it does."""
         c = self.c
         if row.meets:
-            return NOT_CONFIRMED if self.fails_afresh(row) else ""
+            return NOT_CONFIRMED if refuted(row) else ""
         if not row.valid:
             return "all samples failed"
         if row.asked > c.target:
@@ -240,18 +221,16 @@ class Choice:
     def flatness(self):
         """How much room there is, in words."""
         c = self.c
-        near = [row for row in c.candidates if row.meets and row.time <= (1 + c.near_share) * self.best.time
-                and not self.fails_afresh(row)]
-        if not near:
+        if not c.near_count:
             return ""
         spans = []
-        for k, v in enumerate(c.variables):
+        for v in c.variables:
             if v.kind == "evaluation":
                 continue
-            low, high = (self.value(v, end(row.values[k] for row in near)) for end in (min, max))
+            low, high = self.value(v, v.near_low), self.value(v, v.near_high)
             spans.append(f"{v.name.replace('_', ' ')} {low}" if low == high else
                          f"{v.name.replace('_', ' ')} from {low} to {high}")
-        many = "1 candidate meets" if len(near) == 1 else f"{len(near)} candidates meet"
+        many = "1 candidate meets" if c.near_count == 1 else f"{c.near_count} candidates meet"
         return (f"{many} the target within {significant(100 * c.near_share, 2)}{SPACE}% of the recommended time" +
                 (f": {joined(spans)}." if spans else "."))
 

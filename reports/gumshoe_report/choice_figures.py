@@ -48,8 +48,7 @@ def pareto(c, name):
         return ""
     U = lambda r: r.asked * c.display_factor
     figure, axes = plt.subplots(figsize=(7.2, 3.9), layout="constrained")
-    missed = [c.candidates[k] for k in refuted(c)]
-    outcome = lambda r: "misses the target" if not r.meets else "not confirmed" if any(r is m for m in missed) else "meets the target"
+    outcome = lambda r: "misses the target" if not r.meets else "not confirmed" if refuted(r) else "meets the target"
     for text, look in (("misses the target", {"color": GREY, "markeredgewidth": 0}),
                        ("not confirmed", {"markeredgecolor": BLUE, "markerfacecolor": "none", "markeredgewidth": 0.8}),
                        ("meets the target", {"color": BLUE, "markeredgewidth": 0})):

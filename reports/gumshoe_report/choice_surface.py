@@ -145,8 +145,7 @@ def heat(c, name):
                 if np.isfinite(line[k] + line[k + 1]):
                     axes.vlines(edges[0][k + 1], j - 0.5, j + 0.5, color=MARK, linewidth=1.3)
     place = [s if v.range else np.searchsorted(l, s) for v, s, l in zip((vx, vy), shown, lists)]
-    missed = [c.candidates[k] for k in refuted(c)]
-    confirmed = lambda r: bool(r.meets) and not any(r is m for m in missed)
+    confirmed = lambda r: bool(r.meets) and not refuted(r)
     meets = np.array([confirmed(r) for r in rows])
     if vx.range:
         axes.plot(place[0][meets], place[1][meets], "o", color=MARK, markersize=3)

@@ -214,23 +214,6 @@ class Surface(unittest.TestCase):
             self.assertEqual(math.isnan(shown), x > math.log(2 * 2))  # beyond the last point that has one
 
 
-class Fresh(unittest.TestCase):
-    """Settings that met the target in the search only: (time, U, meets), the target 1."""
-
-    def refuted(self, rows, best, confirmed=1, tried=2, bias_limit=math.nan):
-        return sorted(choice.refuted(types.SimpleNamespace(
-            best=best, reached=1, confirmed=confirmed, tried=tried, bias_limit=bias_limit,
-            candidates=[types.SimpleNamespace(time=t, asked=U, meets=m) for t, U, m in rows])))
-
-    def test_faster_settings_were_not_confirmed_nor_were_those_of_larger_U(self):
-        rows = [(1, 1.2, 0), (2, 0.98, 1), (3, 0.99, 1), (4, 0.9, 1), (5, 0.985, 1), (6, 0.8, 1)]
-        self.assertEqual(self.refuted(rows, best=3), [1, 2, 4])
-        self.assertEqual(self.refuted(rows, best=3, bias_limit=0.1), [1, 2])  # the bias may have failed, not U
-        self.assertEqual(self.refuted(rows, best=1, tried=1), [])
-        self.assertEqual(self.refuted(rows, best=3, confirmed=0, tried=4), [1, 2, 3, 4, 5])
-        self.assertEqual(self.refuted(rows, best=3, confirmed=0, tried=20), [1, 2, 3])
-
-
 class Words(unittest.TestCase):
     def test_numbers_are_those_one_keys_in(self):
         for x, text in ((27.9178, "27.92"), (12000.0, "12000"), (0.5, "0.5"), (-1.25, "−1.25"), (0.0, "0")):

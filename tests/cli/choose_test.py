@@ -127,6 +127,29 @@ class Choose(InFolder):
         self.assertTrue(table[0].startswith("feed (mm/min),readings,time (s),U (um),"))
         self.assertEqual(sum(row.split(",")[-3] == "1" for row in table[1:]), 1)
 
+    def test_what_fresh_samples_refute_is_not_said_to_meet_the_target(self):
+        """U of 200 samples is known to 5 %, so that faster feeds meet 5 um by chance; the true limit is 95 mm/min."""
+        feeds = [f"{feed} mm/min" for feed in range(60, 141, 2)]
+        text = TEXT.replace('"3 um"', '"5 um"').replace("samples = 1_000", "samples = 200", 1).replace("4_000", "40_000")
+        text = text[:text.index("[[choose.cases]]")].replace("readings = [1, 2, 3]", "")
+        text = text.replace('feed = { low = "10 mm/min", high = "1000 mm/min", steps = 5, scale = "log" }', f"feed = {feeds}")
+        refuted = 0
+        for seed in range(1, 7):
+            answer = json.loads(self.choose(text + f"[run]\nseed = {seed}\n", "--format", "json").stdout)
+            best, candidates = answer["recommended"], answer["candidates"]
+            self.assertLess(best["settings"]["feed"], 97, seed)
+            for c in candidates:
+                faster = c["meets"] and c["time"] < best["time"]
+                self.assertEqual(c["refuted"], faster, (seed, c))  # U grows with the feed: of slower ones it is less
+            self.assertEqual(answer["near"]["candidates"], sum(c["meets"] and not c["refuted"] and c["time"] <= (1 + answer["near"]["share"]) * best["time"]
+                                                              for c in candidates))
+            refuted += any(c["refuted"] for c in candidates)
+            if any(c["refuted"] for c in candidates):
+                said = self.choose(text + f"[run]\nseed = {seed}\n").stdout
+                self.assertIn("not confirmed by fresh samples", said)
+                self.assertRegex(said, r"\d+ settings? met it in the search and w")
+        self.assertGreater(refuted, 0)  # else these seeds tell nothing
+
     def test_file_holds_it_all(self):
         answer = json.loads(self.choose(TEXT, "--format", "json").stdout)
         with h5py.File(self.out) as file:
