@@ -56,6 +56,7 @@ public:
       set_null(source, less);
       const std::vector<double> change = minus(whole, indications(less));
       if (std::ranges::all_of(change, [](double x) { return x == 0; })) continue;
+      if (!request_.only.empty() && std::ranges::find(request_.only, source.name) == request_.only.end()) continue;
       set_null(source, base);
       if (const std::string why = why_not(source, change); !why.empty()) {
         out_.left_out.push_back({source.name, why});
@@ -66,11 +67,11 @@ public:
       out_.holds.push_back(source.name);
     }
     name_known();
-    if (kept.empty()) refuse_nothing();
+    if (kept.empty() && request_.only.empty()) refuse_nothing();
     const std::vector<double> held = minus(whole, indications(without));
     gather_deviations(whole, minus(whole, indications(base)));
     add_rows(held, kept);
-    join_directions();
+    if (request_.only.empty()) join_directions();
     out_.coarse = coarse();
     return std::move(out_);
   }

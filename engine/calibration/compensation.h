@@ -13,6 +13,7 @@ struct CompensationRequest {
   std::string position, direction;  ///< conditions; empty: found, direction by its name
   std::vector<std::string> with;    ///< quantities of the model whose estimates count, too, such as a gain
   std::vector<std::string> without; ///< effects to leave out
+  std::vector<std::string> only;    ///< names that count, wherever they depend on; empty: what the readings show
 };
 
 /// Error at a position, approached upwards (+1), downwards (-1) or from either side (0).
@@ -26,6 +27,8 @@ struct Compensation {
   std::string position, direction, indication; ///< names; direction is empty where it makes no difference
   std::string position_si_unit, indication_si_unit;
   std::vector<CompensationRow> rows; ///< by position; where there are directions, up before down
+  /// The same errors at positions without readings, where the model knows them; filled by the caller (errors_at).
+  std::vector<CompensationRow> between;
   std::vector<std::string> holds;    ///< effects and quantities that are in it
   struct LeftOut {
     std::string name, why; ///< "also depends on ..."

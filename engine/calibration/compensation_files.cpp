@@ -20,11 +20,17 @@ struct Point {
   double mean() const { return (up + down) / 2; }
 };
 
+[[noreturn]] void refuse(const std::string& what, const std::string& why, const std::string& remedy) {
+  throw InputError(what, why, remedy);
+}
+
+/// These controls' tables have one interval.
+bool equidistant(const CompensationChoice& choice) { return choice.format.starts_with("sinumerik"); }
+
 class Writer {
 public:
   Writer(const Compensation& t, const CompensationChoice& c)
-      : t_(t), c_(c), angle_(t.position_si_unit == "rad"), radians_(c.format == "isg" || c.format == "etalon"),
-        equidistant_(c.format.starts_with("sinumerik")) {}
+      : t_(t), c_(c), angle_(t.position_si_unit == "rad"), radians_(c.format == "isg" || c.format == "etalon") {}
 
   CompensationFile write() {
     std::string text = written();
@@ -41,10 +47,6 @@ private:
     if (c_.format == "sinumerik-eec") return eec();
     if (c_.format == "sinumerik-cec") return cec();
     return c_.format == "isg" ? isg() : etalon();
-  }
-
-  [[noreturn]] static void refuse(const std::string& what, const std::string& why, const std::string& remedy) {
-    throw InputError(what, why, remedy);
   }
 
   /// It stands in the lines of the file as it is.
@@ -82,21 +84,32 @@ private:
   std::string at(double si) const { return fmt::format("{:.6g} {}", position(si), unit()); }
   const char* unit() const { return angle_ ? "deg" : "mm"; }
 
-  /// Both directions at every position; then the steps asked for, linear between the positions measured.
+  /// Both directions at every position; then the steps asked for.
   void make_points() {
+    points_ = points_of(t_.rows);
+    if (points_.size() < 2) refuse("a single position", "a table needs two", "");
+    require_reference();
+    known_ = points_;
+    for (const Point& p : points_of(t_.between)) known_.push_back(p);
+    std::ranges::stable_sort(known_, {}, &Point::x);
+    const auto again = std::ranges::unique(known_, {}, &Point::x);
+    known_.erase(again.begin(), again.end());
+    if (c_.step > 0) resample();
+  }
+
+  std::vector<Point> points_of(const std::vector<CompensationRow>& rows) const {
     std::map<double, std::map<int, double>> known;
-    for (const auto& row : t_.rows) known[row.position][row.direction] = row.error;
+    for (const auto& row : rows) known[row.position][row.direction] = row.error;
+    std::vector<Point> out;
     for (const auto& [x, errors] : known) {
       for (const int d : {1, -1})
         if (both() && !errors.contains(d))
           refuse(fmt::format("at {} nothing was measured {}", at(x), d > 0 ? "upwards" : "downwards"),
                  "the table needs both directions at every position", "use --format csv, or measure it");
-      points_.push_back({x, errors.begin()->second, errors.begin()->second});
-      if (both()) points_.back().up = errors.at(1), points_.back().down = errors.at(-1);
+      out.push_back({x, errors.begin()->second, errors.begin()->second});
+      if (both()) out.back().up = errors.at(1), out.back().down = errors.at(-1);
     }
-    if (points_.size() < 2) refuse("a single position", "a table needs two", "");
-    require_reference();
-    if (c_.step > 0) resample();
+    return out;
   }
 
   void require_reference() const {
@@ -106,28 +119,19 @@ private:
              fmt::format("{} to {}", at(low), at(high)), "name a position within it");
   }
 
+  /// As known; linear between positions that are known.
   Point between(double x) const {
-    if (x <= points_.front().x) return {x, points_.front().up, points_.front().down};
-    const auto next = std::ranges::find_if(points_, [&](const Point& p) { return p.x >= x; });
-    if (next == points_.end()) return {x, points_.back().up, points_.back().down};
+    if (x <= known_.front().x) return {x, known_.front().up, known_.front().down};
+    const auto next = std::ranges::lower_bound(known_, x, {}, &Point::x);
+    if (next == known_.end()) return {x, known_.back().up, known_.back().down};
     const Point &a = *(next - 1), &b = *next;
     const double share = (x - a.x) / (b.x - a.x);
     return {x, a.up + share * (b.up - a.up), a.down + share * (b.down - a.down)};
   }
 
-  /// To the end of the travel: exactly, or where the positions must be equidistant to the next step beyond it, where
-  /// the last error holds.
   void resample() {
-    const double first = points_.front().x, steps = (points_.back().x - first) / c_.step;
-    if (steps < 1 - 1e-9) refuse("the step is longer than the travel measured", "", "use a shorter --step");
-    if (!(steps < most_points))
-      refuse(fmt::format("--step: {:.3g} points", std::ceil(steps) + 1),
-             fmt::format("a table has at most {}", most_points), "use a longer --step");
-    const auto last = static_cast<std::size_t>(std::ceil(steps - 1e-9));
-    std::vector<Point> out;
-    for (std::size_t i = 0; i <= last; ++i) out.push_back(between(first + static_cast<double>(i) * c_.step));
-    if (!equidistant_) out.back() = points_.back();
-    points_ = std::move(out);
+    points_.clear();
+    for (const double x : step_positions(t_, c_)) points_.push_back(between(x));
   }
 
   /// The distance between positions, all equal.
@@ -278,8 +282,9 @@ private:
 
   const Compensation& t_;
   const CompensationChoice& c_;
-  bool angle_, radians_, equidistant_;
-  std::vector<Point> points_;
+  bool angle_, radians_;
+  std::vector<Point> points_; ///< of the table
+  std::vector<Point> known_;
   AppliedTable applied_;
 };
 
@@ -317,6 +322,21 @@ const std::vector<CompensationFormat>& compensation_formats() {
        {"axis", "step", "resolution", "negate"},
        negated}};
   return all;
+}
+
+std::vector<double> step_positions(const Compensation& table, const CompensationChoice& choice) {
+  if (!(choice.step > 0)) return {};
+  const double first = table.rows.front().position, end = table.rows.back().position;
+  const double steps = (end - first) / choice.step;
+  if (steps < 1 - 1e-9) refuse("the step is longer than the travel measured", "", "use a shorter --step");
+  if (!(steps < most_points))
+    refuse(fmt::format("--step: {:.3g} points", std::ceil(steps) + 1),
+           fmt::format("a table has at most {}", most_points), "use a longer --step");
+  std::vector<double> out;
+  for (std::size_t i = 0, last = static_cast<std::size_t>(std::ceil(steps - 1e-9)); i <= last; ++i)
+    out.push_back(first + static_cast<double>(i) * choice.step);
+  if (!equidistant(choice)) out.back() = end;
+  return out;
 }
 
 CompensationFile compensation_file(const Compensation& table, const CompensationChoice& choice) {

@@ -23,11 +23,16 @@ struct CompensationChoice {
   std::string format = "csv";
   std::string axis = "X";    ///< letter, or name of the machine axis
   double resolution = 0;     ///< SI; 0: 0.1 um, 0.1 arcsec of an angle in its own unit
-  double step = 0;           ///< SI; above 0: at such steps, to the end of the travel measured or the next step beyond
+  double step = 0;           ///< SI; above 0: at step_positions
   double reference = 0;      ///< position at which the control's table is zero, SI
   bool at_reference = false; ///< `reference` was given; else the first position
   bool negate = false;
 };
+
+/// Positions of a table with steps of its own, from the first measured to the end of the travel, exactly, or where the
+/// positions must be equidistant to the next step beyond it; empty without a step. Throws InputError for a step that is
+/// longer than the travel, or gives too many points.
+std::vector<double> step_positions(const Compensation& table, const CompensationChoice& choice);
 
 /// A file, and what a control makes of it: of the numbers as they are written, which are rounded.
 struct CompensationFile {

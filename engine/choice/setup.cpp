@@ -36,13 +36,8 @@ scenario::Scenario with(const scenario::Scenario& scenario, const std::vector<sc
     if (knob.kind == Knob::Kind::condition)
       for (auto& reading : s.readings) reading.conditions[knob.index] = value;
   }
-  for (scenario::StatedEffect& e : s.stated_effects) {
-    if (!e.freed) continue;
-    for (scenario::StatedPart& part : e.parts) {
-      part.loading.clear();
-      for (const auto& reading : s.readings) part.loading.push_back(part.loading_at(reading.conditions, {}));
-    }
-  }
+  s.trace.columns.clear();
+  scenario::update_loadings(s);
   return s;
 }
 

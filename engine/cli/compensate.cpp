@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "calibration/compensation.h"
+#include "calibration/compensation_between.h"
 #include "calibration/compensation_files.h"
 #include "cli/command.h"
 
@@ -53,13 +54,22 @@ std::vector<std::string> together(const std::vector<std::string>& names) {
   return out;
 }
 
-/// How far the readings would be off with the table as it is written.
-void print_left(const calibration::Compensation& of, const calibration::AppliedTable& table) {
+std::string position_unit(const calibration::Compensation& of) { return of.position_si_unit == "rad" ? "deg" : "mm"; }
+
+double position_number(double si, const calibration::Compensation& of) {
+  return units::from_si(si, position_unit(of), of.position_si_unit, units::Kind::difference);
+}
+
+/// With a unit.
+std::string error_text(double si, const calibration::Compensation& of) {
   const bool length = of.indication_si_unit == "m", angle = of.indication_si_unit == "rad";
   const std::string unit = length ? "um" : angle ? "arcsec" : of.indication_si_unit;
-  const auto shown = [&](double x) {
-    return fmt::format("{:.3g} {}", units::from_si(x, unit, of.indication_si_unit, units::Kind::difference), unit);
-  };
+  return fmt::format("{:.3g} {}", units::from_si(si, unit, of.indication_si_unit, units::Kind::difference), unit);
+}
+
+/// How far the readings would be off with the table as it is written.
+void print_left(const calibration::Compensation& of, const calibration::AppliedTable& table) {
+  const auto shown = [&](double x) { return error_text(x, of); };
   for (const auto& left : calibration::left_with(of, table)) {
     std::cerr << fmt::format("root mean square of {}{}: {}, with the table {}", left.which,
                              of.left_out.empty() ? "" : ", less what is left out", shown(left.before),
@@ -73,10 +83,7 @@ void print_left(const calibration::Compensation& of, const calibration::AppliedT
 
 /// Where a table with steps of its own begins and ends, and the travel that was measured.
 void print_travel(const calibration::Compensation& of, const calibration::AppliedTable& table) {
-  const std::string unit = of.position_si_unit == "rad" ? "deg" : "mm";
-  const auto shown = [&](double x) {
-    return fmt::format("{:.6g} {}", units::from_si(x, unit, of.position_si_unit, units::Kind::difference), unit);
-  };
+  const auto shown = [&](double x) { return fmt::format("{:.6g} {}", position_number(x, of), position_unit(of)); };
   const double end = table.up.back().first, measured = of.rows.back().position;
   std::cerr << fmt::format("table: {} points, {} to {}", table.up.size(), shown(table.up.front().first), shown(end));
   if (shown(end) != shown(measured))
@@ -84,26 +91,50 @@ void print_travel(const calibration::Compensation& of, const calibration::Applie
   std::cerr << '\n';
 }
 
+/// A control interpolates where the model may know better.
+void warn_of_lines(const propagation::Experiment& experiment, const CompensateOptions& o,
+                   const calibration::Compensation& table, const calibration::AppliedTable& applied) {
+  std::vector<double> positions;
+  for (const auto& [x, error] : applied.up.empty() ? applied.down : applied.up)
+    if (positions.empty() || x > positions.back()) positions.push_back(std::min(x, table.rows.back().position));
+  const auto lines = calibration::straight_lines(experiment, o.of, table, positions);
+  if (lines.poor) {
+    const double step = calibration::sufficient_step(experiment, o.of, table);
+    std::cerr << fmt::format(
+        "warning: the errors vary by {} (root mean square) between the positions of the table, and straight lines miss "
+        "{} of it: a control, which interpolates, may make them worse there; {}\n",
+        error_text(lines.errors, table), error_text(lines.missed, table),
+        !(step > 0)
+            ? "measure at closer positions"
+            : fmt::format("use {}--step \"{:.3g} {}\"", o.choice.format == "csv" ? "a --format of a control and " : "",
+                          position_number(step, table), position_unit(table)));
+  } else if (table.coarse) {
+    std::cerr << fmt::format(
+        "warning: from one {} to the next the errors change by as much as they are: between these a "
+        "control interpolates, and may make them worse; measure at closer positions\n",
+        table.position);
+  }
+}
+
 ExitCode compensate(CompensateOptions o) {
   scenario::Scenario s = scenario::read(o.scenario, catalogue());
   if (o.unconfirmed) s.trace.unconfirmed.clear();
   const propagation::Experiment experiment(s);
-  const calibration::Compensation table = calibration::compensation(experiment, o.of);
+  calibration::Compensation table = calibration::compensation(experiment, o.of);
   o.choice.resolution = positive("--resolution", o.resolution, table.indication_si_unit);
   o.choice.step = positive("--step", o.step, table.position_si_unit);
   o.choice.at_reference = !o.reference.empty();
   if (o.choice.at_reference) o.choice.reference = measure(o.reference, table.position_si_unit);
+  std::vector<double> asked = calibration::step_positions(table, o.choice);
+  if (o.choice.at_reference) asked.push_back(o.choice.reference);
+  table.between = calibration::errors_at(experiment, o.of, table, asked);
   const calibration::CompensationFile file = calibration::compensation_file(table, o.choice);
   if (o.out.empty())
     std::cout << file.text;
   else
     write_table(o.out, file.text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
-  if (table.coarse)
-    std::cerr << fmt::format(
-        "warning: from one {} to the next the errors change by as much as they are: between these a "
-        "control interpolates, and may make them worse; measure at closer positions\n",
-        table.position);
+  warn_of_lines(experiment, o, table, file.applied);
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
   if (o.choice.step > 0) print_travel(table, file.applied);
   print_left(table, file.applied);
@@ -156,7 +187,7 @@ void add_compensate(CLI::App& app, Action& action) {
   command->add_option("--without", o->of.without, "effects to leave out");
   command->add_option(
       "--step", o->step,
-      "interval of the table, linear between the positions measured, to the end of the travel: \"50 mm\"");
+      "interval of the table, to the end of the travel, by the model between the positions measured: \"50 mm\"");
   command->add_option("--reference", o->reference,
                       "position at which the control's table is zero (default: the first)");
   command->add_option("--resolution", o->resolution, "to which values are rounded (default: 0.1 um)");

@@ -153,4 +153,17 @@ void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {
   }
 }
 
+void update_loadings(Scenario& s) {
+  for (StatedEffect& effect : s.stated_effects)
+    for (StatedPart& part : effect.parts) {
+      if (!part.loading_at) continue;
+      part.loading.clear();
+      for (std::size_t r = 0; r < s.readings.size(); ++r) {
+        std::vector<double> columns;
+        for (const TraceColumn& column : s.trace.columns) columns.push_back(column.values[r]);
+        part.loading.push_back(part.loading_at(s.readings[r].conditions, columns));
+      }
+    }
+}
+
 } // namespace gumshoe::scenario

@@ -35,4 +35,8 @@ Conditions read_conditions(std::optional<Table> table, const ModelCard& model);
 /// repeats.
 void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n);
 
+/// Loadings of the stated effects at the readings as they are now, after their conditions or the columns of [trace]
+/// changed. NaN where a table has no value.
+void update_loadings(Scenario& scenario);
+
 } // namespace gumshoe::scenario

@@ -138,7 +138,8 @@ class Compensation(unittest.TestCase):
         cls.rounds = json.loads(run.stdout)["rounds"]
 
     def test_a_wave_that_is_shorter_than_the_table_is_told(self):
-        """Of 10 mm at every 13.7 mm: straight lines between them are wrong. A bow is another thing."""
+        """Of 10 mm at every 13.7 mm, or at every 10 mm, where all readings are alike: straight lines between them are wrong.
+        A bow is another thing. With the step that the warning names, the table is the formula to a tenth of the wave."""
         text = """schema = 1
 [model]
 name = "expression"
@@ -159,14 +160,29 @@ formula = "%s"
 unit = "%s"
 size = { value = "%s", u = "%s" }
 """
-        (self.folder / "m.csv").write_text("x,d\n" + "".join(f"{13.7 * i:.1f},0\n" for i in range(12)))
-        screw = ("sin(0.6283185 * position / one)", "um", "1.2 um", "0.05 um")
+        screw = ("sin(0.6283185307179586 * position / one)", "um", "1.2 um", "0.05 um")
         bow = ("position * position", "um/mm2", "1e-4 um/mm2", "1e-5 um/mm2")
-        for form, warned in ((screw, True), (bow, False)):
-            (self.folder / "w.toml").write_text(text % form + ('[conditions]\none = "1 mm"\n' if warned else ""))
+        for form, distance, warned in ((screw, 13.7, True), (screw, 10, True), (bow, 13.7, False)):
+            shift = 2.5 if distance == 10 else 0
+            rows = "".join(f"{shift + distance * i:.1f},0\n" for i in range(12))
+            (self.folder / "m.csv").write_text("x,d\n" + rows)
+            (self.folder / "w.toml").write_text(text % form + ('[conditions]\none = "1 mm"\n' if form is screw else ""))
             run = gumshoe("compensate", "w.toml", cwd=self.folder)
             self.assertEqual(run.returncode, 0, run.stderr)
-            self.assertEqual("from one position to the next the errors change" in run.stderr, warned, run.stderr)
+            said = re.search(r'straight lines miss (\S+) um of it: .* and --step "(\S+ mm)"', run.stderr)
+            self.assertEqual(said is not None, warned, run.stderr)
+            if not warned:
+                continue
+            if distance == 10:  # the lines are level at the crest: the mean of (1 - sin)^2 is 1.5, in three digits
+                self.assertAlmostEqual(float(said[1]), 1.2 * math.sqrt(1.5), delta=0.006)
+            fine = gumshoe("compensate", "w.toml", "--format", "linuxcnc", "--step", said[2], "--resolution", "1 nm", cwd=self.folder)
+            self.assertNotIn("straight lines", fine.stderr)
+            table = read_back(fine.stdout, "linuxcnc")
+            wave = lambda x: 1.2 * math.sin(2 * math.pi * x / 10)
+            for x, up, down in table[:-1]:
+                self.assertAlmostEqual(up, wave(x), delta=2e-3)  # rounding of a position, and of a value
+            rest = [at(table, 0.01 * i, 1) - wave(0.01 * i) for i in range(250, int(100 * table[-2][0]))]
+            self.assertLess(math.sqrt(sum(r * r for r in rest) / len(rest)), 0.1 * 1.2 / math.sqrt(2))
 
     def compensate(self, *words):
         return gumshoe("compensate", "s.traced.toml", *words, cwd=self.folder)
