@@ -20,8 +20,8 @@ constexpr double most_margin = 0.1; ///< farther than that, nothing was measured
 } // namespace
 
 LoadingTable::LoadingTable(std::vector<std::size_t> inputs, std::vector<std::vector<double>> levels,
-                           std::vector<double> loading, double margin)
-    : inputs_(std::move(inputs)), margin_(margin) {
+                           std::vector<double> loading, double margin, std::optional<double> beyond)
+    : inputs_(std::move(inputs)), margin_(margin), beyond_(beyond) {
   for (std::size_t row = 0; row < loading.size(); ++row) {
     rows_.push_back({{}, loading[row]});
     for (const auto& level : levels) rows_.back().level.push_back(level[row]);
@@ -75,6 +75,8 @@ double LoadingTable::along(const std::vector<std::pair<double, double>>& line, s
 double LoadingTable::at(const std::vector<double>& known) const {
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     if (const double x = along(line(i, known), i, known[inputs_[i]]); !std::isnan(x)) return x;
+  for (std::size_t i = 0; i < inputs_.size() && beyond_; ++i)
+    if (const double x = known[inputs_[i]]; x < low_[i] || x > high_[i]) return *beyond_;
   return nan;
 }
 
@@ -95,7 +97,9 @@ Shape loading_table_shape() {
       {{"loading", shape::list(shape::number()), "change of the indication by a size of 1, by row", true},
        {"margin", shape::number(),
         "share of the range of a condition by which the table is continued in a straight line beyond its ends, up to "
-        "0.1; default: 0"}},
+        "0.1; default: 0"},
+       {"beyond", shape::number(),
+        "change farther out, such as 0 of what came and went; default: nothing is known there"}},
       "", shape::reference("series"));
 }
 
@@ -123,6 +127,7 @@ std::optional<LoadingTable> read_loading_table(Table& effect, const StatedScope&
   if (!(margin >= 0 && margin <= most_margin))
     table->refuse_key("margin", fmt::format("a table is not continued by {:g} of its range", margin),
                       "nothing was measured so far beyond its ends", "state a share between 0 and 0.1");
+  const std::optional<double> beyond = table->number("beyond");
   table->refuse_unknown();
   if (context.problems.size() > before || !loading) return std::nullopt;
   if (inputs.empty())
@@ -141,7 +146,7 @@ std::optional<LoadingTable> read_loading_table(Table& effect, const StatedScope&
         table->refuse(fmt::format("rows {} and {} state the same level", a + 1, b + 1), "", "remove one of them");
         return std::nullopt;
       }
-  return LoadingTable(std::move(inputs), std::move(levels), *loading, margin);
+  return LoadingTable(std::move(inputs), std::move(levels), *loading, margin, beyond);
 }
 
 } // namespace gumshoe::scenario

@@ -7,7 +7,8 @@ namespace gumshoe::scenario {
 
 /// A table is linear between neighbouring levels of one condition or column, at equal levels of all others. A margin,
 /// as a share of the range, continues it beyond the ends of what was measured, along the chord from the end to the
-/// first level as far inside. NaN elsewhere, because nothing is known there.
+/// first level as far inside. Farther out it has one value, if one is stated. NaN elsewhere, because nothing is known
+/// there.
 class LoadingTable {
 public:
   struct Limits {
@@ -17,9 +18,9 @@ public:
 
   /// @param inputs  places in the row of conditions followed by columns
   /// @param levels  [input][row], SI  @param loading by row, dimensionless
-  /// @param margin  share of the range of an input
+  /// @param margin  share of the range of an input   @param beyond  value farther out
   LoadingTable(std::vector<std::size_t> inputs, std::vector<std::vector<double>> levels, std::vector<double> loading,
-               double margin);
+               double margin, std::optional<double> beyond);
   /// @param known conditions followed by columns, SI
   double at(const std::vector<double>& known) const;
   /// The first input that lies beyond its limits; empty: each lies within, but no rows have all others at its level.
@@ -41,6 +42,7 @@ private:
   std::vector<Row> rows_;
   std::vector<double> low_, high_, rounding_; ///< by input
   double margin_;
+  std::optional<double> beyond_;
 };
 
 Shape loading_table_shape();

@@ -29,6 +29,8 @@ struct Criteria {
   std::size_t readings_for_correlation = 12;
   /// Share of alpha for each finding after the first: a search after a finding may add a wrong name by chance.
   double further_share = 0.5;
+  /// Share of the declared noise that a display's step gives from which nothing else is declared.
+  double display_alone = 0.9;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
   /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one

@@ -92,7 +92,7 @@ unconfirmed = ["film"]
 jumping = { rod_length = "2 um" }
 priors = { rod_length = { value = "330 mm", u = "1 um" } }
 [stated_effects.bend]
-table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1], margin = 0.05 }
+table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1], margin = 0.05, beyond = 0 }
 unit = "um"
 [stated_effects.film]
 formula = "1 / feed"

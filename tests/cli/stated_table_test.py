@@ -97,6 +97,15 @@ class Table(unittest.TestCase):
         self.refused("a table is not continued by 0.2 of its range (nothing was measured so far beyond its ends). State a "
                      "share between 0 and 0.1", bend.replace("0.05", "0.2"))
 
+    def test_what_came_and_went_is_zero_beyond(self):
+        """A margin, if there is one, comes first."""
+        bend = 'table = { x = ["0 mm", "50 mm", "100 mm"], loading = [0, 1, 0], beyond = 0 }'
+        for a, b in zip(self.corrections(bend, ["-400,1,0", "25,1,0", "700,1,0"]), (0, 1, 0), strict=True):
+            self.assertAlmostEqual(a, b, places=9)
+        bend = 'table = { x = ["0 mm", "100 mm"], loading = [0, 1], margin = 0.05, beyond = 3 }'
+        for a, b in zip(self.corrections(bend, ["105,1,0", "106,1,0"]), (2.1, 6), strict=True):
+            self.assertAlmostEqual(a, b, places=9)
+
     def test_bad_tables(self):
         for bend, message in (
                 ('table = { loading = [0, 1] }', "it names no condition and no column"),

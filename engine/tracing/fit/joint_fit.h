@@ -48,6 +48,10 @@ Index first_column(const JointFit& fit, std::size_t term);
 /// Standard uncertainty of each size of a term, SI.
 Vector uncertainties(const JointFit& fit, std::size_t term);
 
+/// Whether the declared noise of these rows is that of a display alone, near enough: how readings repeat is not
+/// declared.
+bool declares_display_alone(const JointFit& fit, const std::vector<Index>& rows);
+
 /// How large a term is with which readings jump, or was when it was started: the length of all its sizes, SI.
 double found_size(const Term& term);
 

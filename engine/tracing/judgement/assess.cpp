@@ -49,14 +49,16 @@ double least_p(const std::vector<Null>& nulls, const Matrix& statistics, Index s
 }
 
 /// Size of the noise as a statistic, lognormal to the eye: a robust scale, but with few readings, where that is blunt,
-/// the root mean square.
+/// or few values that readings can have, where half of them may be equal, the root mean square.
 class NoiseSize {
 public:
+  /// @param step  in which readings were recorded
   NoiseSize(const Scan& scan, const Statistics& data, const Statistics& draws, double core, double declared,
-            double freedom) {
-    const bool few = scan.degrees_of_freedom() < criteria.robust_freedom;
-    const Vector size = few ? Vector(draws.variance_without_scatter.cwiseSqrt()) : draws.scale;
-    const double observed = few ? std::sqrt(data.variance_without_scatter[0]) : data.scale[0];
+            double freedom, double step) {
+    const double rms = std::sqrt(data.variance_without_scatter[0]);
+    const bool blunt = scan.degrees_of_freedom() < criteria.robust_freedom || step > rms;
+    const Vector size = blunt ? Vector(draws.variance_without_scatter.cwiseSqrt()) : draws.scale;
+    const double observed = blunt ? rms : data.scale[0];
     drawn_ = size.array().log() - 0.5 * std::log(data.variance_without_scatter[0]) - std::log(core);
     const auto first = drawn_.head(drawn_.size() / 2);
     middle_ = first.mean();
@@ -174,7 +176,8 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
   out.null = nulls_of(nothing.ratio, rarity);
   const auto component = nulls_of(nothing.scatter);
-  const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared, freedom);
+  const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared, freedom,
+                       repeats ? repeats->step : 0);
   out.p_noise = size.p();
   out.noise_small = size.judged() && 1 - out.p_noise < criteria.noise_small_p;
   std::vector<double> least;

@@ -104,6 +104,16 @@ public:
     for (const MoreNoise& one : larger_noise(fit_, f)) of_noise(one.indication, one.u, {"reading"}, source_of(f));
   }
 
+  /// How readings repeat on a display, where the display alone is declared.
+  void beyond_display() {
+    const bool found = std::ranges::any_of(out_.findings, [&](const Finding& f) { return !larger_noise(fit_, f).empty(); });
+    if (found || !declares_display_alone(fit_, c_.fitter.rows())) return;
+    for (const MoreNoise& one : beyond_declared(fit_))
+      if (one.u > 0)
+        of_noise(one.indication, one.u, {"reading"},
+                 "scatter of these readings beyond the step of their display; no finding of its own");
+  }
+
   /// What the readings of a group share: a finding of its own or not, new readings scatter so.
   void shared(const Component& component) {
     const auto& labels = component.group->labels;
@@ -209,7 +219,10 @@ void add_components(const TraceContext& c, const Search& s, const std::vector<Ve
     if (out.findings[i].kind == Kind::not_in_catalogue)
       components.not_in_catalogue(s.findings[i], out.findings[i], left);
   for (const Component& one : scatter.components) components.shared(one);
-  if (!c.fitter.noise_declared()) components.estimated(scatter);
+  if (!c.fitter.noise_declared())
+    components.estimated(scatter);
+  else
+    components.beyond_display();
 }
 
 } // namespace gumshoe::tracing

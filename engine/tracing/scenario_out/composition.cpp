@@ -73,7 +73,8 @@ private:
       const auto j = static_cast<std::size_t>(&c - written_[t]->effects.data());
       const double margin = margin_of(c);
       c.source = source + "; known at the levels measured, and linear between those of one condition" +
-                 (margin > 0 ? fmt::format(", and for {:g} % of the range beyond them", 100 * margin) : "");
+                 (margin > 0 ? fmt::format(", and for {:g} % of the range beyond them", 100 * margin) : "") +
+                 (before_and_after(c) ? "; beyond them as at the ends" : "");
       out_.extended.quantities.push_back({c.name + ".size", c.unit, c.si_unit, {}, true});
       sizes(t, written_[t]->shares[j], source);
       out_.corrections.push_back(c);

@@ -213,6 +213,14 @@ double margin_of(const Correction& c) {
   return any ? small : 0;
 }
 
+std::optional<double> before_and_after(const Correction& c) {
+  constexpr double nothing = 0.01; // of its height
+  if (!c.shape.starts_with("pulse:") || c.keys.size() != 1) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(c.loading);
+  const double before = c.loading.front(), after = c.loading.back();
+  return std::fabs(after - before) <= nothing * (high - low) ? std::optional((before + after) / 2) : std::nullopt;
+}
+
 std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& term, const std::string& name) {
   const Observations& o = c.observations;
   const std::size_t indication = indication_of(o, term.candidate.columns);

@@ -14,6 +14,9 @@ std::string unit_of_size(const VariableCard& indication);
 /// angle, which comes round, and of numbers without a unit.
 double margin_of(const Correction& correction);
 
+/// Loading of a correction that came and went within the readings at both ends of its table, and so beyond them.
+std::optional<double> before_and_after(const Correction& correction);
+
 struct WrittenShape {
   std::vector<Correction> effects; ///< one alone if it depends on nothing but a label
   const Grouping* label = nullptr; ///< one label or two: the size of each then takes a value for each of its groups

@@ -192,6 +192,8 @@ private:
     table.members.push_back({"loading", 0, 0, calibration::list_node(std::move(loading))});
     if (const double margin = margin_of(c); margin > 0)
       table.members.push_back({"margin", 0, 0, calibration::number_node(margin)});
+    if (const auto beyond = before_and_after(c))
+      table.members.push_back({"beyond", 0, 0, calibration::number_node(*beyond)});
     effect.members.push_back({"table", 0, 0, std::move(table)});
   }
 
