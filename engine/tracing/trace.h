@@ -74,6 +74,7 @@ struct Finding {
   std::string fits_better;          ///< unknown effect that fits better, as chance could have it; or empty
   std::string described_by;         ///< shape of an unknown effect: "table:position*direction"; else empty
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
+  bool by_default = false;          ///< the declared value is the model's, because the scenario states none
 };
 
 /// A candidate as the ranking lists it.

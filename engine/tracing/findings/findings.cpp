@@ -156,6 +156,14 @@ void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
         noise.correlation));
 }
 
+/// Whether the scenario states no value of the quantity that a term shifts.
+bool takes_default(const TraceContext& c, const Term& term) {
+  const std::size_t q = term.candidate.amplitudes[0].quantity;
+  const auto& all = c.experiment.scenario().quantities;
+  return term.candidate.family == Family::declared && q < all.size() &&
+         std::ranges::all_of(all[q].entries, [](const auto& entry) { return entry.source == "default"; });
+}
+
 void collect(const TraceContext& c, const Search& s, Trace& out) {
   const JointFit& fit = s.found;
   if (out.vetoed)
@@ -178,6 +186,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
       const auto more = sizes(c, fit, t, found.threshold);
       f.quantities.insert(f.quantities.end(), more.begin(), more.end());
       remark_on_size(fit.terms[t], f);
+      f.by_default = takes_default(c, fit.terms[t]);
     }
     if (plain && !f.quantities.empty()) remark_on_shapes(c, fit, *plain, found, f);
     if (f.kind == Kind::equivalence_class) describe_class(c, s, found, f);

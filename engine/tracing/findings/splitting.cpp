@@ -56,7 +56,8 @@ std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
     } else if (v.name == "time") {
       const double range = *levels.rbegin() - *levels.begin();
       if (range > 0)
-        out.push_back({c, range, Proposal::add, fmt::format("repeat the measurement {} later", shown(range, v))});
+        out.push_back({c, range, Proposal::add,
+                       fmt::format("repeat the measurement {} later, all else as it was", shown(range, v))});
     } else if (v.si_unit == "K") {
       const double low = *levels.begin(), high = *levels.rbegin(), range = low < high ? high - low : usual_warming;
       for (const double value : {low - range, high + range}) at(value);

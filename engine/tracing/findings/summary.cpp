@@ -88,6 +88,23 @@ std::string in_its_place(const Finding& f) {
   return shape == on ? on + " is there" : "the readings follow " + on;
 }
 
+/// "the declared value of reference_drift"; an effect by its name.
+std::string told(const std::string& member) {
+  return member.starts_with(declared) ? fmt::format("the declared value of {}", member.substr(declared.size()))
+                                      : member;
+}
+std::string told(const std::vector<std::string>& members) {
+  std::vector<std::string> all;
+  for (const std::string& one : members) all.push_back(told(one));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// A hysteresis without a condition that is the direction depends on one condition, and on from where it was reached.
+std::string reversed_condition(const Finding& f) {
+  const bool one = f.described_by.starts_with("hysteresis:") && f.depends_on.size() == 1;
+  return one ? f.depends_on[0] : "";
+}
+
 /// @param of  indication_of
 std::string what_was_found(const Finding& f, const std::string& of) {
   const std::string readings = of.empty() ? "the readings" : "the readings of " + of;
@@ -96,7 +113,8 @@ std::string what_was_found(const Finding& f, const std::string& of) {
   switch (f.kind) {
   case Kind::named:
     if (declares(f))
-      return fmt::format("The readings contradict a value that the scenario declares: {}{}.",
+      return fmt::format("The readings contradict a value that {}: {}{}.",
+                         f.by_default ? "the model takes where the scenario states none" : "the scenario declares",
                          f.name.substr(declared.size()), size);
     if (!f.implausible.empty())
       return fmt::format("A part of the error looks like {}{}, but this size is {}: likely an alias of another effect.",
@@ -106,7 +124,7 @@ std::string what_was_found(const Finding& f, const std::string& of) {
   case Kind::equivalence_class:
     return fmt::format("The model lacks an effect of the machine. It is one of: {}. These data cannot "
                        "distinguish them.",
-                       fmt::join(f.members, ", "));
+                       told(f.members));
   case Kind::scatter:
     return fmt::format("The readings scatter {}{}{}.",
                        f.depends_on == std::vector<std::string>{"reading"}
@@ -118,6 +136,9 @@ std::string what_was_found(const Finding& f, const std::string& of) {
     if (f.described_by.starts_with("table:"))
       return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
                          depends_on);
+    if (const std::string condition = reversed_condition(f); !condition.empty())
+      return fmt::format(
+          "The readings differ between rising and falling {}, and no effect of the catalogue explains it.", condition);
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
       return fmt::format("Something changed after {}: from then on {} differ by a constant.", reading, readings);
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
@@ -141,13 +162,15 @@ std::string briefly(const Finding& f) {
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
   switch (f.kind) {
   case Kind::named:
-    return f.name + size_of(f);
+    return told(f.name) + size_of(f);
   case Kind::equivalence_class:
-    return fmt::format("one of {}", fmt::join(f.members, ", "));
+    return fmt::format("one of {}", told(f.members));
   case Kind::scatter:
     return fmt::format("scatter from one {} to the next{}{}", depends_on, size_of(f),
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f));
   case Kind::not_in_catalogue:
+    if (const std::string condition = reversed_condition(f); !condition.empty())
+      return "a difference between rising and falling " + condition;
     if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
     if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
@@ -228,10 +251,25 @@ std::string in_95(double low, double high, const Rms& r) {
 /// The error that counts most: of readings that took no part, beyond what their noise allows.
 bool held_out_exceeds(const Rms& r) { return r.holdout_after_winsorised > r.holdout_noise_high; }
 std::string held_out_error(const Rms& r) {
-  return fmt::format("Held-out readings differ from the model by {}, more than noise alone gives ({}); the worst, {}, "
+  const bool alike = shown_rms(r.holdout_after, r) == shown_rms(r.holdout_noise_high, r);
+  return fmt::format("Held-out readings differ from the model by {}, {} than noise alone gives ({}); the worst, {}, "
                      "by {}.",
-                     shown_rms(r.holdout_after, r), in_95(r.holdout_noise_low, r.holdout_noise_high, r), r.worst_point,
+                     shown_rms(r.holdout_after, r), alike ? "a little more" : "more",
+                     in_95(r.holdout_noise_low, r.holdout_noise_high, r), r.worst_point,
                      shown_rms(r.worst_point_after, r));
+}
+
+/// Readings five times and more as far off as the noise; empty: none.
+std::string bad_readings(const Trace& t) {
+  const auto far = [](const Outlier& o) { return o.weight < criteria.winsor_limit / 5; };
+  const auto count = std::ranges::count_if(t.outliers, far);
+  if (count == 0) return "";
+  const Outlier& worst = *std::ranges::min_element(t.outliers, {}, &Outlier::weight);
+  const std::string off =
+      shown_size(std::fabs(worst.residual), units::error_unit(worst.unit, worst.si_unit), worst.si_unit);
+  return count == 1
+             ? fmt::format("One reading is outlying: {}, by {}. Check it.", worst.reading, off)
+             : fmt::format("{} readings are outlying; the worst, {}, by {}. Check them.", count, worst.reading, off);
 }
 
 /// Nothing was found: are the residuals as small as noise makes them?
@@ -263,7 +301,7 @@ std::string what_residuals_show(const Trace& t) {
                        shown_rms(r.before, r), t.noise.correlation);
   if (t.noise.declared && t.noise.chi_squared_p <= t.alpha)
     return fmt::format(
-        "No candidate explains the residuals ({}). They are consistent with noise {:.2g} times as "
+        "No candidate explains the residuals ({}). They are consistent with noise {:.3g} times as "
         "large as declared, but noise as declared gives residuals this large in only {:.2g} % of cases: {}",
         shown_rms(r.before, r), t.noise.scale, 100 * t.noise.chi_squared_p, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
@@ -329,6 +367,7 @@ std::vector<std::string> verdict_in_words(const Trace& t) {
       out.push_back(fmt::format("Readings of equal conditions scatter by only {}: what repeats can be corrected for.",
                                 scatter_of_replicates(r)));
   }
+  if (const std::string bad = bad_readings(t); !t.findings.empty() && !bad.empty()) out.push_back(bad);
   if (!t.anomalous_blocks.empty()) {
     out.push_back(which_block_differs(t));
     if (t.findings.empty()) out.push_back("Find out what was different, or leave it out, and trace again.");

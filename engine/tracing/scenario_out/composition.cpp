@@ -79,6 +79,20 @@ private:
       sizes(t, written_[t]->shares[j], source);
       out_.corrections.push_back(c);
     }
+    if (one.candidate.name.starts_with("hysteresis:") && depends_on_time(written_[t]->effects))
+      out_.statements.push_back(
+          fmt::format("the correction of {} is known by time alone; state the direction as a condition, "
+                      "{{ column = \"...\", sense = true }} with the column of {}, and trace again",
+                      one.candidate.name, one.candidate.depends_on[0]));
+  }
+
+  bool depends_on_time(const std::vector<Correction>& effects) const {
+    return std::ranges::any_of(effects, [&](const Correction& c) {
+      return std::ranges::any_of(c.keys, [&](const Correction::Key& key) {
+        return std::ranges::any_of(c_.observations.covariates,
+                                   [&](const Covariate& x) { return x.course && x.name == key.name; });
+      });
+    });
   }
 
   /// The sizes of an effect: one, or one for each group of the label.
