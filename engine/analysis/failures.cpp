@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/status.h"
+#include "base/status_meaning.h"
 #include "base/units.h"
 #include "propagation/propagate.h"
 
@@ -125,9 +125,10 @@ Failures failures_of(const propagation::Experiment& e, const Samples& samples) {
   for (const auto& [reason, count] : counts) {
     failures.samples += count;
     const std::uint64_t first = failed[reason].front();
-    failures.reasons.push_back(fmt::format("{}: {} samples, the first is sample {} (gumshoe replay FILE --sample {}){}",
-                                           status_name(static_cast<Status>(reason)), count, first, first,
-                                           where(e, draws, all, failed[reason])));
+    failures.reasons.push_back(
+        fmt::format("{}: {} samples, the first is sample {} (gumshoe replay FILE --sample {}); {}{}",
+                    status_name(static_cast<Status>(reason)), count, first, first,
+                    status_meaning(static_cast<Status>(reason)), where(e, draws, all, failed[reason])));
   }
   return failures;
 }

@@ -202,6 +202,11 @@ std::string instead_of(const std::string& unit) {
       R"((^|[^A-Za-z])(°|deg|degs|degree|degrees)\s+([CFK])(elsius|ahrenheit|elvin)?(?![A-Za-z]))");
   if (std::smatch found; std::regex_search(unit, found, parted))
     return fmt::format("write {}{}", found[3] == "K" ? "" : "deg", found[3].str());
+  // "bar(g)" is a gauge pressure, and no bar times gram.
+  static const std::regex remark(R"(([A-Za-z\x80-\xff]+)\(([A-Za-z]+)\))");
+  if (std::smatch found; std::regex_search(unit, found, remark))
+    return fmt::format("write '{}' and say elsewhere what is meant by ({}); a product is '{}.{}'", found[1].str(),
+                       found[2].str(), found[1].str(), found[2].str());
   if (has_zeroth_power(unit)) return "a unit to the power of zero is a plain number: leave it out";
   std::string out;
   each_name(

@@ -19,7 +19,8 @@ constexpr bool letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// What to write instead of a unit that people read in two ways, of a logarithmic one or of a power of zero; empty:
+/// What to write instead of a unit that people read in two ways, of a logarithmic one, of one with a remark in brackets
+/// or of a power of zero; empty:
 /// nothing is known.
 std::string instead_of(const std::string& unit);
 

@@ -248,7 +248,10 @@ const std::vector<Node>* Table::array(const std::string& key) {
   const Node* node = find(key);
   if (!node) return nullptr;
   if (node->kind == Node::Kind::array) return &node->items;
-  refuse_key(key, fmt::format("expected an array, found {}", describe(node->kind)));
+  const bool table = node->kind == Node::Kind::table;
+  refuse_key(key, fmt::format("expected an array, found {}", describe(node->kind)), "",
+             table ? fmt::format("write [[{}]] in place of [{}], or {} = [ {{ ... }} ]", path(key), path(key), key)
+                   : "");
   return nullptr;
 }
 
@@ -336,9 +339,13 @@ void Table::refuse_undeclared() {
 }
 
 void Table::refuse_as_unknown(const Member& m, const std::set<std::string>& names) {
+  refuse_stray(m, "", did_you_mean(m.key, {names.begin(), names.end()}));
+}
+
+void Table::refuse_stray(const Member& m, std::string why, std::string remedy) {
+  refused_.insert(m.key);
   const std::string prefix = path_.empty() ? "" : path_ + ": ";
-  problems_->add(m, fmt::format("{}unknown key '{}'", prefix, m.key), "",
-                 did_you_mean(m.key, {names.begin(), names.end()}));
+  problems_->add(m, fmt::format("{}unknown key '{}'", prefix, m.key), std::move(why), std::move(remedy));
 }
 
 void Table::refuse_unknown() {

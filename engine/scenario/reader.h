@@ -112,6 +112,8 @@ public:
   void refuse_undeclared();
   /// Reports the keys that were never asked for. Call it last.
   void refuse_unknown();
+  /// Reports a key that is none of this table; it is not reported again.
+  void refuse_stray(const Member& key, std::string why, std::string remedy);
 
 private:
   void refuse_as_unknown(const Member& key, const std::set<std::string>& names);

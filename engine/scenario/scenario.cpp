@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "base/hash.h"
 #include "base/text_file.h"
@@ -53,6 +54,7 @@ public:
     Table top(document_, "", problems_);
     top.declare(sections());
     check_schema(top);
+    refuse_misplaced(top);
     top.refuse_undeclared();
     const std::size_t unknown_sections = problems_.size();
     expand_set_points(document_, files_, problems_);
@@ -116,6 +118,30 @@ public:
   }
 
 private:
+  /// A key of one section that stands outside of it, unless its name resembles a section's more.
+  void refuse_misplaced(Table& top) {
+    std::vector<std::string> names;
+    for (const Key& section : sections()) names.push_back(section.name);
+    for (const Member& m : document_.members) {
+      if (std::ranges::find(names, m.key) != names.end() || did_you_mean(m.key, names).starts_with("did you")) continue;
+      std::vector<std::string> homes;
+      for (const Key& section : sections())
+        if (const auto shape = nlohmann::json::parse('{' + section.shape + '}', nullptr, false);
+            shape.contains("properties") && shape["properties"].contains(m.key))
+          homes.push_back(section.name);
+      if (homes.empty()) continue;
+      const bool list = m.value.kind == Node::Kind::array, inner = m.value.kind == Node::Kind::table;
+      std::vector<std::string> paths;
+      for (const std::string& home : homes)
+        paths.push_back(list    ? fmt::format("[[{}.{}]]", home, m.key)
+                        : inner ? fmt::format("[{}.{}]", home, m.key)
+                                : home);
+      top.refuse_stray(m, fmt::format("it belongs to [{}]", fmt::join(homes, "] or [")),
+                       list || inner ? fmt::format("write {}", fmt::join(paths, " or "))
+                                     : fmt::format("move it under [{}]", fmt::join(paths, "] or [")));
+    }
+  }
+
   /// What a newer format calls unknown here would only mislead.
   void check_schema(Table& top) {
     if (!top.require("schema", "schema = 1")) return;

@@ -132,6 +132,10 @@ TEST_CASE("what udunits would read as something else is refused", "[units][error
     CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("write t", Catch::CaseSensitive::No));
   for (const char* unit : {"g0", "a0", "m^0", "kg/m0"})
     CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("power of zero"));
+  // A gauge pressure is no bar times gram.
+  for (const char* unit : {"bar(g)", "mm(abs)"})
+    CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("say elsewhere what is meant by"));
+  CHECK(units::si_unit_of("bar.g") == units::si_unit_of("g bar"));
   CHECK(si("1 m10", "m10") == 1);
   for (const char* unit : {"\xC2\xB0 C", "deg C", "degrees C", "um/m/deg C"})
     CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("Write degC"));
