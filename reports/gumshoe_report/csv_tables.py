@@ -1,8 +1,11 @@
 """The tables as CSV: display units, all digits (reports/README.md)."""
 import csv
 import io
+import itertools
 import json
 import pathlib
+
+import numpy as np
 
 from . import compensation, workbook
 from .tables import coefficient, point, spread
@@ -136,10 +139,13 @@ def trace(t):
 
 
 def volume(v):
-    """The grid of errors, and what causes the largest one."""
+    """The grid of errors, each point with its commands, and what causes the largest one."""
     if v is None:
         return {}
-    return {"axes": [line("volume/axes", a) for a in v.axes], "points": [line("volume/points", p) for p in v.points],
+    grid = itertools.product(*(np.linspace(spread(a, getattr(a, "from")), spread(a, a.to), int(a.points)) for a in v.axes))
+    points = [{**{f"{a.name}_{a.display_units}": x for a, x in zip(v.axes, at)}, **line("volume/points", p), "unit": "m"}
+              for at, p in zip(grid, v.points)]
+    return {"axes": [line("volume/axes", a) for a in v.axes], "points": points,
             "causes": [line("volume/causes", s) for s in v.shares]}
 
 

@@ -173,6 +173,9 @@ class ToolLength(InFolder):
         run = gumshoe("run", self.write(swap("4 mm", "40 mm")), "--samples", 1000, "--out", self.folder / "out.h5")
         self.assertEqual(run.returncode, 3)
         self.assertIn("never_covered: 1000 samples", run.stdout)
+        self.assertIn("the shadow cannot cover the share of the beam", run.stdout)
+        check = gumshoe("check", self.write(swap("4 mm", "40 mm")))
+        self.assertIn("warning: at the estimates there is no value: never_covered (the shadow cannot cover", check.stdout)
 
     def test_readings_without_a_derivative_are_named_or_counted(self):
         """Of the curve of a mill two readings decide some flutes, and eight or more the others."""

@@ -144,6 +144,11 @@ source = "one fit"
         points = list(csv.DictReader(io.StringIO((self.folder / "v_points.csv").read_text())))
         self.assertEqual(len(points), 9 * 7 * 3)
         self.assertAlmostEqual(max(float(p["length"]) for p in points), length.max(), delta=1e-12)
+        # The commands of a point: the last axis goes fastest, through three values.
+        at = [tuple(float(p[f"{axis}_mm"]) for axis in "XYZ") for p in points]
+        self.assertEqual(at, sorted(at))
+        self.assertEqual(len({z for _, _, z in at}), 3)
+        self.assertEqual({p["unit"] for p in points}, {"m"})
         self.assertTrue((self.folder / "v_causes.csv").exists())
 
     def test_what_is_wrong_is_said_where_it_is(self):
