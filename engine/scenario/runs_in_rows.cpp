@@ -110,14 +110,15 @@ std::optional<Layout> runs(const Csv& csv) {
   return out;
 }
 
-/// "Forward (um)", "Backward (um)".
+/// "Forward (um)", "Backward (um)", "Reading up", "Reading down".
 std::optional<Layout> directions(const Csv& csv) {
   Layout out{{"direction"}, {}, "", false};
   double sum = 0;
   for (std::size_t c = 0; c < csv.header.size(); ++c) {
     std::string rest;
     const std::string unit = unit_in(csv.header[c].text, rest);
-    const auto words = words_of(rest);
+    auto words = words_of(rest);
+    std::erase_if(words, [&](const std::string& w) { return role_by_name({w}, unit) == ColumnRole::reading; });
     const double sign = words.size() != 1 || is_doubtful(words.front()) ? 0 : sign_of(words.front());
     if (sign == 0) continue;
     out.parts.push_back({c, {words.front()}, sign});
