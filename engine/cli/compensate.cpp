@@ -91,16 +91,16 @@ void print_travel(const calibration::Compensation& of, const calibration::Applie
   std::cerr << '\n';
 }
 
-/// A control interpolates where the model may know better.
-void warn_of_lines(const propagation::Experiment& experiment, const CompensateOptions& o,
-                   const calibration::Compensation& table, const calibration::AppliedTable& applied) {
+/// A control interpolates where the model may know better: a line that says so, or nothing.
+std::string warning_of_lines(const propagation::Experiment& experiment, const CompensateOptions& o,
+                             const calibration::Compensation& table, const calibration::AppliedTable& applied) {
   std::vector<double> positions;
   for (const auto& [x, error] : applied.up.empty() ? applied.down : applied.up)
     if (positions.empty() || x > positions.back()) positions.push_back(std::min(x, table.rows.back().position));
   const auto lines = calibration::straight_lines(experiment, o.of, table, positions);
   if (lines.poor) {
     const double step = calibration::sufficient_step(experiment, o.of, table);
-    std::cerr << fmt::format(
+    return fmt::format(
         "warning: the errors vary by {} (root mean square) between the positions of the table, and straight lines miss "
         "{} of it: a control, which interpolates, may make them worse there; {}\n",
         error_text(lines.errors, table), error_text(lines.missed, table),
@@ -108,12 +108,12 @@ void warn_of_lines(const propagation::Experiment& experiment, const CompensateOp
             ? "measure at closer positions"
             : fmt::format("use {}--step \"{:.3g} {}\"", o.choice.format == "csv" ? "a --format of a control and " : "",
                           position_number(step, table), position_unit(table)));
-  } else if (table.coarse) {
-    std::cerr << fmt::format(
-        "warning: from one {} to the next the errors change by as much as they are: between these a "
-        "control interpolates, and may make them worse; measure at closer positions\n",
-        table.position);
   }
+  if (table.coarse)
+    return fmt::format("warning: from one {} to the next the errors change by as much as they are: between these a "
+                       "control interpolates, and may make them worse; measure at closer positions\n",
+                       table.position);
+  return "";
 }
 
 ExitCode compensate(CompensateOptions o) {
@@ -129,12 +129,13 @@ ExitCode compensate(CompensateOptions o) {
   if (o.choice.at_reference) asked.push_back(o.choice.reference);
   table.between = calibration::errors_at(experiment, o.of, table, asked);
   const calibration::CompensationFile file = calibration::compensation_file(table, o.choice);
+  const std::string warning = warning_of_lines(experiment, o, table, file.applied);
   if (o.out.empty())
     std::cout << file.text;
   else
     write_table(o.out, file.text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
-  warn_of_lines(experiment, o, table, file.applied);
+  std::cerr << warning;
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
   if (o.choice.step > 0) print_travel(table, file.applied);
   print_left(table, file.applied);

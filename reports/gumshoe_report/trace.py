@@ -212,6 +212,8 @@ class Trace:
             return f"Measure another block before you correct by the table of {names.by('*'.join(f.depends_on))} below: {UNDECIDED}."
         if f.tables:
             return f"Correct by the table of {names.by('*'.join(f.depends_on))} below; its cause is unknown."
+        if not f.curves:
+            return "Its cause is unknown."
         return "Its cause is unknown; the curve below describes it within the range of the data."
 
     def title(self, f):

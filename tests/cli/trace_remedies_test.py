@@ -8,6 +8,8 @@ import random
 import re
 import unittest
 
+import h5py
+
 from program import InFolder, gumshoe
 
 CELL = """schema = 1
@@ -116,6 +118,14 @@ class Remedies(Logs):
         self.assertIn("The readings differ between rising and falling load", text)
         self.assertIn('is known by time alone; state the direction as a condition, { column = "...", sense = true } with the column of '
                       "load", text)
+        # The table goes by load and by its sense: the two ways differ by 1.2 uV * 4 F (10 - F) / 100, and would cancel.
+        with h5py.File(self.folder / "o.h5") as file:
+            table = file["trace/findings/000/tables/000"]
+            load, sense = (table[f"keys/{key}"][:] * scale for key, scale in (("load", 1e-3), ("sense of load", 1)))
+            y = {(round(F), round(s)): e for F, s, e in zip(load, sense, table["y"][:])}
+            u = dict(zip(y, table["u"][:]))
+        for F in range(1, 10):
+            self.assertAlmostEqual(y[F, -1] - y[F, 1], 1.2e-6 * 4 * F * (10 - F) / 100, delta=8 * u[F, 1])
         (self.folder / "s.toml").write_text(CELL.format(file="a.csv", way='way = { column = "load_kN", sense = true }\n'))
         text, _ = self.trace("s.toml")
         self.assertNotIn("is known by time alone", text)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/QR>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "analysis/rounding.h"
 #include "base/units.h"
+#include "math/senses.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/period.h"
@@ -40,7 +42,13 @@ public:
     empty_.indication = card.name;
     empty_.indication_unit = card.unit;
     empty_.indication_si_unit = card.si_unit;
+    rounding_ = 1e-9 * term_.candidate.columns.cwiseAbs().maxCoeff();
     unit_ = display_unit(rms, empty_.indication_unit, empty_.indication_si_unit);
+  }
+
+  /// Whether a curve is more than rounding: along one condition the ways of a hysteresis may cancel.
+  bool shows(const Curve& curve) const {
+    return std::ranges::any_of(curve.y, [](double y) { return y != 0; });
   }
 
   /// Unit of errors of the indication.
@@ -242,6 +250,7 @@ private:
       }
     if (count == 0) return false;
     mean /= count;
+    if (mean.cwiseAbs().maxCoeff() <= rounding_) mean.setZero(); // nothing: no value, and no uncertainty
     out.x.push_back(x);
     out.y.push_back(mean.dot(term_.size));
     out.u.push_back(std::sqrt(std::max(0.0, mean.dot(covariance_ * mean))));
@@ -253,9 +262,27 @@ private:
   const Term& term_;
   std::size_t indication_;
   Matrix covariance_;
+  double rounding_ = 0; ///< of a loading
   Curve empty_;
   std::string unit_; ///< of errors
 };
+
+} // namespace
+
+namespace {
+
+/// By which way the values of a condition were reached, rising 1 and falling -1: a hysteresis depends on it where no
+/// condition says the same.
+std::optional<Covariate> sense_of(const Candidate& a, const std::vector<const Covariate*>& depends_on,
+                                  const Observations& o) {
+  if (depends_on.size() != 1 || !a.name.starts_with("hysteresis:")) return std::nullopt;
+  std::vector<double> x;
+  for (const std::size_t reading : o.sequence) x.push_back(depends_on[0]->value[reading]);
+  const std::vector<double> way = senses(x);
+  Covariate out{"sense of " + depends_on[0]->name, "1", "1", std::vector<double>(o.readings), {-1, 1}};
+  for (std::size_t i = 0; i < way.size(); ++i) out.value[o.sequence[i]] = way[i];
+  return out;
+}
 
 } // namespace
 
@@ -264,7 +291,8 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
   const auto add = [&](const auto& all, const std::string& name) {
     for (const auto& one : all)
       if (one.name == name)
-        if (Curve curve = make.against(one); !curve.x.empty()) finding.curves.push_back(std::move(curve));
+        if (Curve curve = make.against(one); !curve.x.empty() && make.shows(curve))
+          finding.curves.push_back(std::move(curve));
   };
   for (const std::string& name : finding.depends_on) {
     add(c.observations.covariates, name);
@@ -279,8 +307,11 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
       if (one.name == name) labels.push_back(&one);
   }
   if (covariates.empty() && labels.empty()) return;
+  const bool of_one = covariates.size() + labels.size() == 1;
+  const auto sense = sense_of(fit.terms[term].candidate, covariates, c.observations);
+  if (sense) covariates.push_back(&*sense);
   CellTable table = make.by(covariates, labels);
-  if (covariates.size() + labels.size() == 1) {
+  if (of_one) {
     if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
       finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
     else if (const std::string drift = labels.empty() ? make.time_constant(*covariates[0]) : ""; !drift.empty())
