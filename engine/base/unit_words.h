@@ -20,8 +20,7 @@ constexpr bool letter(char c) {
 }
 
 /// What to write instead of a unit that people read in two ways, of a logarithmic one, of one with a remark in brackets
-/// or of a power of zero; empty:
-/// nothing is known.
+/// or of a power of zero; empty: nothing is known.
 std::string instead_of(const std::string& unit);
 
 /// The unit as the database is to read it: names that it lacks, or has with values from before 2019, are replaced. None

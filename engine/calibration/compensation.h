@@ -13,7 +13,7 @@ struct CompensationRequest {
   std::string position, direction;  ///< conditions; empty: found, direction by its name
   std::vector<std::string> with;    ///< quantities of the model whose estimates count, too, such as a gain
   std::vector<std::string> without; ///< effects to leave out
-  std::vector<std::string> only;    ///< names that count, wherever they depend on; empty: what the readings show
+  std::vector<std::string> only;    ///< the effects and quantities that count, each direction apart; empty: all
 };
 
 /// Error at a position, approached upwards (+1), downwards (-1) or from either side (0).

@@ -47,8 +47,10 @@ scenario::Scenario with_readings_at(const scenario::Scenario& s, const ModelCard
       const auto between = [&](double a, double b) { return a == b ? a : a + share * (b - a); };
       quantities::Reading reading{s.readings[low].labels, {}, {}};
       for (std::size_t c = 0; c < card.conditions.size(); ++c)
-        reading.conditions.push_back(
-            c == position ? x : between(s.readings[low].conditions[c], s.readings[high].conditions[c]));
+        if (const double here = s.readings[low].conditions[c]; c != position && card.conditions[c].si_unit == "1")
+          reading.conditions.push_back(here); // a direction or a number of something has no values in between
+        else
+          reading.conditions.push_back(c == position ? x : between(here, s.readings[high].conditions[c]));
       out.readings.push_back(std::move(reading));
       for (std::size_t c = 0; c < out.trace.columns.size(); ++c)
         if (const auto& values = s.trace.columns[c].values; !values.empty())
@@ -58,7 +60,8 @@ scenario::Scenario with_readings_at(const scenario::Scenario& s, const ModelCard
   return out;
 }
 
-bool known(const scenario::Scenario& s) {
+/// Whether every stated effect has a loading at every reading.
+bool has_loadings(const scenario::Scenario& s) {
   return std::ranges::all_of(s.stated_effects, [](const auto& effect) {
     return std::ranges::all_of(effect.parts, [](const auto& part) {
       return std::ranges::all_of(part.loading, [](double x) { return std::isfinite(x); });
@@ -71,7 +74,12 @@ bool known(const scenario::Scenario& s) {
 std::vector<CompensationRow> errors_at(const propagation::Experiment& experiment, const CompensationRequest& request,
                                        const Compensation& table, const std::vector<double>& positions) {
   constexpr std::size_t at_once = 256; // what a scenario costs grows faster than its readings
-  const CompensationRequest held{table.indication, table.position, table.direction, request.with, {}, table.holds};
+  const CompensationRequest held{.indication = table.indication,
+                                 .position = table.position,
+                                 .direction = table.direction,
+                                 .with = request.with,
+                                 .without = {},
+                                 .only = table.holds};
   std::vector<CompensationRow> out;
   for (std::size_t i = 0; i < positions.size(); i += at_once) {
     const auto from = positions.begin() + static_cast<std::ptrdiff_t>(i);
@@ -79,11 +87,13 @@ std::vector<CompensationRow> errors_at(const propagation::Experiment& experiment
     const scenario::Scenario between =
         with_readings_at(experiment.scenario(), *experiment.model().card, table, {from, to});
     if (between.readings.empty()) continue;
-    if (!known(between)) return {};
+    if (!has_loadings(between)) return {};
     try {
       const propagation::Experiment there(between);
-      const auto rows = compensation(there, held).rows;
-      out.insert(out.end(), rows.begin(), rows.end());
+      for (CompensationRow row : compensation(there, held).rows) {
+        if (table.direction.empty()) row.direction = 0;
+        out.push_back(row);
+      }
     } catch (const InputError&) {
       return {};
     }

@@ -7,8 +7,8 @@
 namespace gumshoe::calibration {
 
 /// Errors of what `table` holds at other positions within its travel, by direction as its rows. Labels are those of a
-/// neighbouring reading, other conditions linear between the neighbours on both sides. Empty where the model has no
-/// value, as beyond the levels of a correction that is known at levels alone.
+/// neighbouring reading, as are conditions without a unit; others are linear between the neighbours on both sides.
+/// Empty where the model has no value, as beyond the levels of a correction that is known at levels alone.
 std::vector<CompensationRow> errors_at(const propagation::Experiment& experiment, const CompensationRequest& request,
                                        const Compensation& table, const std::vector<double>& positions);
 

@@ -154,13 +154,17 @@ void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {
 }
 
 void update_loadings(Scenario& s) {
+  const bool recorded = !s.trace.columns.empty() && std::ranges::all_of(s.trace.columns, [&](const auto& column) {
+    return column.values.size() == s.readings.size();
+  });
   for (StatedEffect& effect : s.stated_effects)
     for (StatedPart& part : effect.parts) {
-      if (!part.loading_at) continue;
+      if (!part.loading_at || (effect.of_columns && !recorded)) continue;
       part.loading.clear();
       for (std::size_t r = 0; r < s.readings.size(); ++r) {
         std::vector<double> columns;
-        for (const TraceColumn& column : s.trace.columns) columns.push_back(column.values[r]);
+        if (effect.of_columns)
+          for (const TraceColumn& column : s.trace.columns) columns.push_back(column.values[r]);
         part.loading.push_back(part.loading_at(s.readings[r].conditions, columns));
       }
     }

@@ -36,7 +36,8 @@ Conditions read_conditions(std::optional<Table> table, const ModelCard& model);
 void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n);
 
 /// Loadings of the stated effects at the readings as they are now, after their conditions or the columns of [trace]
-/// changed. NaN where a table has no value.
+/// changed. NaN where a table has no value. What reads columns is left as it is where these have no value at every
+/// reading.
 void update_loadings(Scenario& scenario);
 
 } // namespace gumshoe::scenario

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "base/hash.h"
 #include "base/text_file.h"
@@ -124,11 +123,7 @@ private:
     for (const Key& section : sections()) names.push_back(section.name);
     for (const Member& m : document_.members) {
       if (std::ranges::find(names, m.key) != names.end() || did_you_mean(m.key, names).starts_with("did you")) continue;
-      std::vector<std::string> homes;
-      for (const Key& section : sections())
-        if (const auto shape = nlohmann::json::parse('{' + section.shape + '}', nullptr, false);
-            shape.contains("properties") && shape["properties"].contains(m.key))
-          homes.push_back(section.name);
+      const std::vector<std::string> homes = sections_with(m.key);
       if (homes.empty()) continue;
       const bool list = m.value.kind == Node::Kind::array, inner = m.value.kind == Node::Kind::table;
       std::vector<std::string> paths;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "scenario/analysis.h"
 #include "scenario/choose.h"
@@ -147,6 +148,15 @@ std::vector<Key> model_keys() {
       {"batch", whole(1, 10'000'000), "command: largest number of points per call", false, "10000"},
       {"time_limit", reference("width"), "command: time limit per call; default: 60 s"},
   };
+}
+
+std::vector<std::string> sections_with(const std::string& key) {
+  std::vector<std::string> out;
+  for (const Key& section : sections())
+    if (const auto shape = nlohmann::json::parse('{' + section.shape + '}');
+        shape.contains("properties") && shape["properties"].contains(key))
+      out.push_back(section.name);
+  return out;
 }
 
 const std::vector<Key>& sections() {

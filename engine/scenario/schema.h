@@ -7,6 +7,8 @@ namespace gumshoe::scenario {
 
 /// The sections of a scenario, with their shapes.
 const std::vector<Key>& sections();
+/// Names of the sections that have a key of this name.
+std::vector<std::string> sections_with(const std::string& key);
 /// The keys of [model], those of models that a scenario describes included.
 std::vector<Key> model_keys();
 

@@ -5,10 +5,8 @@ import itertools
 import json
 import pathlib
 
-import numpy as np
-
 from . import compensation, workbook
-from .tables import coefficient, point, spread
+from .tables import coefficient, commands, point, spread
 
 # Columns of each group of the file: [header, dataset, kind of unit]. Written by `gumshoe fields --format json`.
 COLUMNS = json.loads((pathlib.Path(__file__).parent / "columns.json").read_text(encoding="utf-8"))
@@ -142,9 +140,8 @@ def volume(v):
     """The grid of errors, each point with its commands, and what causes the largest one."""
     if v is None:
         return {}
-    grid = itertools.product(*(np.linspace(spread(a, getattr(a, "from")), spread(a, a.to), int(a.points)) for a in v.axes))
     points = [{**{f"{a.name}_{a.display_units}": x for a, x in zip(v.axes, at)}, **line("volume/points", p), "unit": "m"}
-              for at, p in zip(grid, v.points)]
+              for at, p in zip(itertools.product(*map(commands, v.axes)), v.points)]
     return {"axes": [line("volume/axes", a) for a in v.axes], "points": points,
             "causes": [line("volume/causes", s) for s in v.shares]}
 

@@ -20,6 +20,12 @@ def spread(row, value):
     return value * row.display_factor
 
 
+def commands(axis):
+    """Commanded values of an axis of a volume, in its display unit."""
+    first, last, intervals = spread(axis, getattr(axis, "from")), spread(axis, axis.to), int(axis.points) - 1
+    return [round(first + (last - first) * k / intervals, 9) for k in range(intervals + 1)]
+
+
 def of_failures(o, show):
     """What the interval is if the samples without a value had any values: its bounds by rank, where there are some."""
     low, high = (with_unit(show(end), o.display_units) if math.isfinite(end) else ""

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import volume_figures
 from .rounding import after, decimals, finer, fixed, percent, significant, unit_text
-from .tables import spread
+from .tables import commands, spread
 
 LISTED = 20
 
@@ -18,7 +18,7 @@ class Grid:
     def __init__(self, v):
         self.axes = v.axes
         self.shape = tuple(int(a.points) for a in v.axes)
-        self.commands = [np.round(np.linspace(spread(a, getattr(a, "from")), spread(a, a.to), int(a.points)), 9) for a in v.axes]
+        self.commands = [np.array(commands(a)) for a in v.axes]
         largest = max((p.length for p in v.points), default=0.0)
         self.units, factor = finer("mm", 1e3 * largest)
         self.unit, self.factor = unit_text(self.units), 1e3 * factor

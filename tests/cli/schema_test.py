@@ -240,6 +240,26 @@ class Schema(unittest.TestCase):
             self.assertEqual(run.returncode, 2)
             self.assertIn(f"{file}:4:1: error: model: unknown key 'mehtod'. Did you mean 'method'?", run.stderr)
 
+    @unittest.skipUnless(GUMSHOE, "needs the program")
+    def test_program_says_where_a_key_belongs(self):
+        head = 'schema = 1\n[model]\nname = "expression"\n[model.measurands]\ny = "a"\n[quantities]\na = { value = "1 mm", u = "1 um" }\n'
+        for text, said in (
+                ("[[conformity]]\nmeasurand = \"y\"\n", "unknown key 'conformity' (it belongs to [analysis]). Write [[analysis.conformity]]."),
+                ("[conformity]\nmeasurand = \"y\"\n", "unknown key 'conformity' (it belongs to [analysis]). Write [analysis.conformity]."),
+                ("[quantity.b]\nvalue = \"1 mm\"\n", "unknown key 'quantity'. Did you mean 'quantities'?"),
+                ("[analysis.conformity]\nmeasurand = \"y\"\n", "expected an array, found a table. Write [[analysis.conformity]] in place of [analysis.conformity], or conformity = [ { ... } ].")):
+            with self.subTest(text), tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "s.toml"
+                file.write_text(head + text)
+                run = subprocess.run([GUMSHOE, "check", str(file)], capture_output=True, text=True)
+                self.assertEqual(run.returncode, 2)
+                self.assertIn(said, run.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "s.toml"
+            file.write_text("samples = 100\n" + head)
+            run = subprocess.run([GUMSHOE, "check", str(file)], capture_output=True, text=True)
+            self.assertIn("it belongs to [run]", run.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

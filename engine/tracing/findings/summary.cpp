@@ -259,9 +259,10 @@ std::string held_out_error(const Rms& r) {
                      shown_rms(r.worst_point_after, r));
 }
 
-/// Readings five times and more as far off as the noise; empty: none.
+/// Readings that are off by five standard deviations of the noise or more; empty: none.
 std::string bad_readings(const Trace& t) {
-  const auto far = [](const Outlier& o) { return o.weight < criteria.winsor_limit / 5; };
+  constexpr double deviations = 5; // normal noise exceeds them once in two million
+  const auto far = [](const Outlier& o) { return o.weight <= criteria.winsor_limit / deviations; };
   const auto count = std::ranges::count_if(t.outliers, far);
   if (count == 0) return "";
   const Outlier& worst = *std::ranges::min_element(t.outliers, {}, &Outlier::weight);
