@@ -39,7 +39,7 @@ def subscripts(text):
 
 def symbols(text):
     """Units in sentences of the program as one writes them."""
-    return re.sub(r"(\d ?)um\b", "\\1µm", text)
+    return re.sub(r"([\d\])] ?)um\b", "\\1µm", text)
 
 
 def render(r):
