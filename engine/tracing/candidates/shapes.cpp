@@ -64,10 +64,11 @@ public:
     for (const Grouping* g : part_labels(o_))
       for (const Covariate& c : o_.covariates)
         if (c.commanded || c.course) in_groups(c, *g);
-    // The first block may have another slope: what was at rest is not run in yet.
+    // The first block may have another slope: what was at rest is not run in yet. Any may have another reversal.
     for (const Grouping& g : o_.labels)
       for (const Covariate& c : o_.covariates)
-        if (g.group == o_.blocks.group && c.commanded && !c.course) in_group(c, g, g.group[o_.sequence[0]]);
+        if (g.group == o_.blocks.group && c.commanded && !c.course)
+          is_direction(c) ? passes(c, g) : in_group(c, g, g.group[o_.sequence[0]]);
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
@@ -240,15 +241,35 @@ private:
 
   void in_group(const Covariate& c, const Grouping& g, std::size_t i) {
     const Vector x = plain(o_, c) / std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
+    in_group(x, c, g, i, "product:" + c.name + "*" + g.groups[i]);
+  }
+
+  /// @param x  what depends on the condition, by reading of the sequence
+  void in_group(const Vector& x, const Covariate& c, const Grouping& g, std::size_t i, const std::string& name) {
     Vector one = Vector::Zero(x.size());
     std::set<double> levels;
     for (Index r = 0; r < x.size(); ++r)
       if (g.group[o_.sequence[index(r)]] == i) one[r] = x[r], levels.insert(x[r]);
     if (levels.size() < 2) return;
-    add(Family::shape, "product:" + c.name + "*" + g.groups[i], one, {c.name, g.name});
+    add(Family::shape, name, one, {c.name, g.name});
     for (auto a = out_.end() - index(o_.indications); a != out_.end(); ++a)
       a->amplitudes[0].labels = {{g.name, g.values[i][0]}};
   }
+
+  /// Something was hit or slipped on the way there, or on the way back: one pass of a block differs, or its reversal.
+  void passes(const Covariate& direction, const Grouping& blocks) {
+    if (blocks.groups.size() > criteria.most_label_groups) return;
+    const Vector way = plain(o_, direction);
+    for (std::size_t i = 0; i < blocks.groups.size(); ++i) {
+      in_group(direction, blocks, i);
+      for (const double level : direction.levels)
+        in_group((way.array() == level).cast<double>(), direction, blocks, i,
+                 fmt::format("step:{} with {} {:g}", blocks.groups[i], direction.name, level));
+    }
+  }
+
+  /// Two states that are opposite.
+  static bool is_direction(const Covariate& c) { return c.levels.size() == 2 && c.levels[0] == -c.levels[1]; }
 
   /// Any value at each level of what was set again and again: of one covariate, of two, and of all of them together.
   void tables() {
@@ -327,7 +348,7 @@ private:
   /// An error of the direction that grows along a slide: from an end of what was measured, or from the slide's zero; or
   /// that closes at both ends.
   void reversals(const Covariate& direction, const Covariate& place) {
-    if (direction.levels.size() != 2 || direction.levels[0] != -direction.levels[1]) return;
+    if (!is_direction(direction)) return;
     if (place.angle || place.levels.size() < 3 || elapses(place)) return;
     const double low = place.levels.front(), high = place.levels.back();
     const Vector sign = plain(o_, direction), along = plain(o_, place);
