@@ -72,6 +72,11 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
                                                const Dimension& dimension) {
   const Node* const node = parent.find(key);
   if (!node) return std::nullopt;
+  if (node->kind == Node::Kind::integer || node->kind == Node::Kind::real) {
+    parent.refuse_key(key, fmt::format("the name of a column is expected, not {}", describe(node->kind)), "",
+                      "put it in quotes; a value that all rows share stands in [conditions]");
+    return std::nullopt;
+  }
   const Node stated = column_table(*node);
   auto table = as_table(stated, parent.path(key), parent.problems());
   if (!table) return std::nullopt;

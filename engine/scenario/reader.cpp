@@ -251,7 +251,7 @@ const std::vector<Node>* Table::array(const std::string& key) {
   const bool table = node->kind == Node::Kind::table;
   refuse_key(key, fmt::format("expected an array, found {}", describe(node->kind)), "",
              table ? fmt::format("write [[{}]] in place of [{}], or {} = [ {{ ... }} ]", path(key), path(key), key)
-                   : "");
+                   : fmt::format("write {} = [ ... ]", key));
   return nullptr;
 }
 

@@ -279,7 +279,23 @@ private:
       own->refuse_unknown();
       if (any) out_.quantities.insert(out_.quantities.end(), freed.begin(), freed.end());
     }
+    refuse_names_of_sizes(*table, model);
     table->refuse_unknown();
+  }
+
+  /// What an effect's size is called, in place of the effect.
+  void refuse_names_of_sizes(Table& table, const ModelCard& model) {
+    for (const Member& m : table.members()) {
+      std::vector<std::string_view> effects;
+      for (const EffectCard* effect : catalogue_.effects)
+        if ((!catalogue_.applies || catalogue_.applies(model, *effect)) &&
+            std::ranges::any_of(effect->quantities, [&](const QuantityCard& q) { return q.name == m.key; }))
+          effects.push_back(effect->name);
+      const bool known = std::ranges::any_of(catalogue_.effects, [&](const auto* e) { return e->name == m.key; });
+      if (!known && !effects.empty())
+        table.refuse_stray(m, fmt::format("it is a quantity of {}", fmt::join(effects, ", ")),
+                           fmt::format("write {} under [effects.{}]", m.key, effects.front()));
+    }
   }
 
   void read_stated(Table& table, const ModelCard& model) {

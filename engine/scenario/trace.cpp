@@ -43,8 +43,11 @@ private:
     const auto is_it = [&](const auto& card) { return card.name == m.key; };
     if (!formula::is_name(m.key))
       refuse(m, "a formula cannot use this name", "use letters, digits and _, with no digit first");
-    else if (std::ranges::any_of(scope_.model.conditions, is_it) ||
-             std::ranges::any_of(scope_.model.indications, is_it) ||
+    else if (std::ranges::any_of(scope_.model.conditions, is_it))
+      refuse(m, "the name already has a meaning", fmt::format("it is a condition of the model {}", scope_.model.name),
+             fmt::format("write it under [data.conditions], or under conditions of the readings of an indication, in "
+                         "place of [trace.columns]; or choose another name"));
+    else if (std::ranges::any_of(scope_.model.indications, is_it) ||
              std::ranges::any_of(scope_.model.quantities, is_it))
       refuse(m, "the name already has a meaning", fmt::format("of the model {}", scope_.model.name),
              "choose another name");
@@ -181,7 +184,9 @@ private:
   }
 
   void redone() {
-    const auto* sets = table_.array("redone");
+    const Node* const stated = table_.find("redone");
+    const std::vector<Node> alone = stated ? std::vector{*stated} : std::vector<Node>{};
+    const auto* sets = stated && stated->kind == Node::Kind::text ? &alone : table_.array("redone");
     if (!sets) return;
     out_.redone.emplace();
     for (std::size_t i = 0; i < sets->size(); ++i) {
@@ -238,7 +243,7 @@ Options<TraceOptions> trace_options() {
                                     "order of measurement: a condition or a column; default: the order of the "
                                     "readings"),
       option::by_hand<TraceOptions>(
-          "redone", shape::list(act),
+          "redone", shape::any_of({shape::text(), shape::list(act)}),
           "labels that identify one redone set-up step, such as a clamping, which may leave scatter behind. Empty: "
           "none "
           "was redone. Left out: every set of one or two labels with at least six combinations"),

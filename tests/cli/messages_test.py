@@ -146,6 +146,11 @@ CHECKED = [
     (ROWS, None, '[trace]\nblocks = "setup"\nfinal = []\n', "the last quarter of the blocks"),
     (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None, '[trace]\nblocks = "setup"\n', "a reading has no label 'setup'"),
     (ROWS, None, "[trace]\nredone = [[]]\n", "a set-up step needs at least one label"),
+    (ROWS, None, "[trace]\nredone = 3\n", "expected an array, found an integer. Write redone = [ ... ]."),
+    (DATA, 'labels = { rod = "rod" } }', 'conditions = { feed = 3 } }', "the name of a column is expected, not an integer. "
+     "Put it in quotes; a value that all rows share stands in [conditions]."),
+    (DATA, None, '[trace.columns]\nfeed = { column = "z", unit = "mm/s" }\n', "it is a condition of the model rod_gauging"),
+    (SCENARIO, None, '[effects.backlash]\nvalue = "1 um"\n', "it is a quantity of "),
     (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has its own zero"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "the formula has no finite value at reading"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um"\nformula = "feed"\n', "multiplied by a size in um, it gives"),
