@@ -38,11 +38,11 @@ CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& 
         between_members += 2 * correlations.between(a->first, b->first) * a->second.contribution * b->second.contribution;
     }
     out.correlation += between_members;
-    satterthwaite += std::pow(own + between_members, 2) / degrees;
+    satterthwaite += std::pow(std::max(own + between_members, 0.0), 2) / degrees;
   }
   if (out.unequal)
     out.effective_degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
-  else if (satterthwaite > 0)
+  else if (constexpr double rounding = 1e-12; satterthwaite > 0 && out.total() > rounding * out.independent)
     out.effective_degrees_of_freedom = out.total() * out.total() / satterthwaite;
   return out;
 }

@@ -8,7 +8,6 @@
 
 #include "analysis/complete.h"
 #include "analysis/leaves.h"
-#include "analysis/ordered_sum.h"
 #include "analysis/outputs.h"
 #include "analysis/rounding.h"
 #include "base/special_values.h"
@@ -52,8 +51,8 @@ struct Mean {
 
 Mean mean_of(const std::vector<double>& x) {
   const double n = static_cast<double>(x.size());
-  const double mean = ordered_sum(x.size(), [&](std::size_t i) { return x[i]; }) / n;
-  const double square = ordered_sum(x.size(), [&](std::size_t i) { return (x[i] - mean) * (x[i] - mean); });
+  const double mean = sum_of(x.size(), [&](std::size_t i) { return x[i]; }) / n;
+  const double square = sum_of(x.size(), [&](std::size_t i) { return (x[i] - mean) * (x[i] - mean); });
   return {mean, std::sqrt(square / (n - 1) / n)};
 }
 
@@ -200,7 +199,7 @@ double stated_expanded_uncertainty(const Summary& s) {
 std::string ConformityResult::decision() const {
   const double to_limit = std::fmin(std::fabs(estimate - acceptance_lower), std::fabs(estimate - acceptance_upper));
   return std::string(accepted ? "accepted" : "rejected") +
-         (to_limit <= 2 * estimate_se
+         (estimate_se > 0 && to_limit <= 2 * estimate_se
               ? " by chance (an acceptance limit is within twice the estimate's Monte Carlo standard error)"
               : "");
 }

@@ -75,8 +75,7 @@ private:
     std::vector<const double*> pointers(d_);
     for (std::size_t v = 0; v < d_; ++v) pointers[v] = &x[v * n];
     for (std::size_t v = 0; v < d_; ++v) {
-      const double variance = e_.plan().variates[v].distribution.variance();
-      const double h = 1e-3 * (std::isfinite(variance) && variance > 0 ? std::sqrt(variance) : 1e-3);
+      const double h = 1e-3 * e_.plan().variates[v].distribution.standard_uncertainty();
       const std::vector<double> kept(&x[v * n], &x[v * n] + n);
       for (const auto& [sign, values] : {std::pair{1.0, &up}, std::pair{-1.0, &down}}) {
         for (std::size_t i = 0; i < n; ++i) x[v * n + i] = kept[i] + sign * h;

@@ -167,7 +167,11 @@ private:
     if (!s) return std::nullopt;
     if (name_.word == "conformity.decision") return word(s->accepted ? "accepted" : "rejected");
     auto figure = field(conformity_fields, *s);
-    if (figure && name_.word.ends_with("_risk")) // a share of the samples
+    if (figure && name_.word == "conformity.global_consumer_risk")
+      figure->standard_error = s->global_consumer_risk_se;
+    else if (figure && name_.word == "conformity.global_producer_risk")
+      figure->standard_error = s->global_producer_risk_se;
+    else if (figure && name_.word.ends_with("_risk")) // a share of the samples
       figure->standard_error = std::sqrt(figure->value * (1 - figure->value) / static_cast<double>(r_.samples));
     return figure;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/index_verdict.h"
 #include "analysis/reach.h"
 #include "analysis/summary.h"
 #include "base/hash.h"
@@ -27,10 +28,7 @@ Order order_of(const std::vector<double>& x, std::uint64_t key) {
 }
 
 Index make_index(double value, double low, double high) {
-  return {"", value, low, high,
-          !(high - low <= 0.1) ? "not converged"
-          : low <= 0           ? "zero within its interval"
-                               : "resolved"};
+  return {"", value, low, high, std::string(verdict(low, high))};
 }
 
 Index rank_index(const Order& order, const std::vector<double>& y) {

@@ -70,6 +70,15 @@ template <class Sum, class Leaf> Sum leaf_sum(std::size_t n, int threads, const 
   return pairwise(std::span(sums));
 }
 
+/// Sum of term(i) for i < n, on one thread, with the same bits.
+template <class Term> double sum_of(std::size_t n, const Term& term) {
+  return leaf_sum<double>(n, 1, [&](std::size_t first, std::size_t count) {
+    double sum = 0;
+    for (std::size_t i = first; i < first + count; ++i) sum += term(i);
+    return sum;
+  });
+}
+
 /// The same over leaf(values).
 template <class Sum, class Leaf> Sum leaf_sum(const Column& x, int threads, const Leaf& leaf) {
   std::vector<Sum> sums(parts(x.size()));

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/special_values.h"
+#include "quantities/cells.h"
 #include "random/streams.h"
 
 namespace gumshoe::analysis {
@@ -65,7 +66,7 @@ public:
     std::vector<std::uint8_t> status(n), failed(n, 0);
     std::vector<const double*> pointers(d_);
     for (std::size_t v = 0; v < d_; ++v) {
-      random::Stream stream{hash64("morris", variates[v].key), 0, 0, 0};
+      const random::Stream stream{hash64("morris", variates[v].key), quantities::reading_of(variates[v].cell), 0, 0};
       random::uniforms(stream, first, n, u.data());
       quantile_[v](u.data(), &base[v * n], n);
       for (double& x : u) x += x < 0.5 ? 0.5 : -0.5;

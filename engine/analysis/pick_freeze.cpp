@@ -6,30 +6,15 @@
 #include <mutex>
 
 #include "analysis/units.h"
-#include "base/instruction_set.h"
+#include "base/kernel_choice.h"
 
-extern "C" {
-extern const gumshoe::analysis::PickFreezeKernels gumshoe_pick_freeze_sse2, gumshoe_pick_freeze_avx2,
-    gumshoe_pick_freeze_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::analysis::PickFreezeKernels, pick_freeze)
 
 namespace gumshoe::analysis {
 
 using quantities::Purpose;
 
-const PickFreezeKernels& pick_freeze_kernels() {
-#ifdef GUMSHOE_HAS_AVX2
-  switch (best_instruction_set()) {
-  case InstructionSet::avx512:
-    return gumshoe_pick_freeze_avx512;
-  case InstructionSet::avx2:
-    return gumshoe_pick_freeze_avx2;
-  default:
-    break;
-  }
-#endif
-  return gumshoe_pick_freeze_sse2;
-}
+const PickFreezeKernels& pick_freeze_kernels() { return *GUMSHOE_BEST_KERNELS(pick_freeze); }
 
 std::vector<std::vector<bool>> reaching_variates(const propagation::Experiment& e) {
   const auto& plan = e.plan();

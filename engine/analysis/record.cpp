@@ -1,6 +1,7 @@
 #include "analysis/record.h"
 
 #include <cmath>
+#include <set>
 
 #include "analysis/gum.h"
 #include "quantities/distribution.h"
@@ -37,6 +38,7 @@ std::vector<InputRecord> input_records(const scenario::Scenario& s) {
       for (const auto& [label, value] : entry.labels)
         record.labels += (record.labels.empty() ? "" : ", ") + label + " " + value;
       double variance = 0;
+      std::set<std::string> scopes;
       for (const auto& c : entry.components) {
         variance += std::pow(c.distribution.standard_uncertainty(), 2);
         record.value += c.distribution.mean();
@@ -44,7 +46,8 @@ std::vector<InputRecord> input_records(const scenario::Scenario& s) {
           if (f.family == c.distribution.family)
             record.distribution += (record.distribution.empty() ? "" : " + ") + std::string(f.name);
         if (record.evaluation.find(c.evaluation) == std::string::npos) record.evaluation += c.evaluation;
-        record.scope = scope_text(c);
+        if (const std::string scope = scope_text(c); scopes.insert(scope).second)
+          record.scope += (scopes.size() == 1 ? "" : " + ") + scope;
         if (!c.source.empty()) record.source += (record.source.empty() ? "" : "; ") + c.source;
       }
       record.standard_uncertainty = std::sqrt(variance);

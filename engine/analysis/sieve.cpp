@@ -8,27 +8,13 @@
 #include "analysis/leaves.h"
 #include "analysis/order_key.h"
 #include "analysis/sieve_kernels.h"
-#include "base/instruction_set.h"
+#include "base/kernel_choice.h"
 
-extern "C" {
-extern const gumshoe::analysis::SieveKernels gumshoe_sieve_sse2, gumshoe_sieve_avx2, gumshoe_sieve_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::analysis::SieveKernels, sieve)
 
 namespace gumshoe::analysis {
 
-const SieveKernels& sieve_kernels() {
-#ifdef GUMSHOE_HAS_AVX2
-  switch (best_instruction_set()) {
-  case InstructionSet::avx512:
-    return gumshoe_sieve_avx512;
-  case InstructionSet::avx2:
-    return gumshoe_sieve_avx2;
-  default:
-    break;
-  }
-#endif
-  return gumshoe_sieve_sse2;
-}
+const SieveKernels& sieve_kernels() { return *GUMSHOE_BEST_KERNELS(sieve); }
 
 std::size_t SieveRange::bins() const {
   return shift == keep ? 0 : static_cast<std::size_t>(distance(first, last) >> shift) + 1;

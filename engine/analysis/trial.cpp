@@ -7,12 +7,13 @@
 #include "analysis/reach.h"
 #include "analysis/summary.h"
 #include "propagation/propagate.h"
+#include "scenario/conditions.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr std::size_t block_samples = 4096;
+constexpr std::size_t points_in_a_run = 4096;
 
 /// True if every reading has the same labels, so that one alone makes a scenario.
 bool alike(const std::vector<quantities::Reading>& readings) {
@@ -28,7 +29,7 @@ Trial::Trial(const propagation::Experiment& e, std::size_t output, int threads)
     : scenario_(std::make_unique<scenario::Scenario>(e.scenario())), row_(output), threads_(threads) {
   const std::size_t reading = e.outputs()[output].reading, measurands = e.measurands().size();
   if (!e.joint() && alike(e.scenario().readings)) {
-    scenario_->readings = {e.scenario().readings[reading]};
+    scenario::take_reading(*scenario_, e.scenario(), reading);
     row_ = output - reading * measurands;
   }
   experiment_ = std::make_unique<propagation::Experiment>(*scenario_);
@@ -42,10 +43,10 @@ Trial::Trial(const propagation::Experiment& e, std::size_t output, int threads)
   points_ = static_cast<std::size_t>(std::max<std::uint64_t>(8, n / 8 * 8));
   drawn_.resize(variates * points_);
   const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, points_);
-  propagation::parallel_for((points_ + block_samples - 1) / block_samples, threads, [&](std::size_t b) {
-    const std::size_t first = b * block_samples;
-    sampler.draw(first, std::min(block_samples, points_ - first), quantities::Purpose::sampling, drawn_.data() + first,
-                 points_);
+  propagation::parallel_for((points_ + points_in_a_run - 1) / points_in_a_run, threads, [&](std::size_t b) {
+    const std::size_t first = b * points_in_a_run;
+    sampler.draw(first, std::min(points_in_a_run, points_ - first), quantities::Purpose::sampling,
+                 drawn_.data() + first, points_);
   });
   for (const auto& v : plan.variates) {
     const double mean = v.distribution.mean();
@@ -57,8 +58,8 @@ double Trial::expanded_uncertainty(const std::vector<double>& scale) {
   ++runs_;
   const std::size_t variates = scale.size(), rows = experiment_->outputs().size();
   std::vector<double> y(points_);
-  propagation::parallel_for((points_ + block_samples - 1) / block_samples, threads_, [&](std::size_t b) {
-    const std::size_t first = b * block_samples, n = std::min(block_samples, points_ - first);
+  propagation::parallel_for((points_ + points_in_a_run - 1) / points_in_a_run, threads_, [&](std::size_t b) {
+    const std::size_t first = b * points_in_a_run, n = std::min(points_in_a_run, points_ - first);
     std::vector<double> scaled(variates * n), outputs(rows * n);
     std::vector<const double*> pointers;
     for (std::size_t v = 0; v < variates; ++v) {

@@ -7,13 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "analysis/ordered_sum.h"
+#include "analysis/leaves.h"
 #include "analysis/rounding.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "models/serial_chain/serial_chain.h"
 #include "propagation/parallel.h"
 #include "propagation/propagate.h"
+#include "quantities/correlations.h"
 
 namespace gumshoe::analysis {
 namespace {
@@ -139,8 +140,8 @@ private:
     return out;
   }
 
-  /// Sums of the samples [first, first + count) at every point.
-  void add(const VolumeMap& map, std::size_t first, std::size_t count, SumsAtPoint* sums) const {
+  /// Sums of the samples [first, first + count) at every point; how many of them have no value at some point.
+  std::uint64_t add(const VolumeMap& map, std::size_t first, std::size_t count, SumsAtPoint* sums) const {
     const std::size_t n = padded(count);
     const std::vector<double> columns = drawn(first, n), fixed = row(true), null = row(false);
     std::vector<models::Column> actual, without;
@@ -151,6 +152,7 @@ private:
       if (!sources_[s].machine) without[sources_[s].quantity] = {&columns[s * n], 1};
     }
     const std::size_t of_nominal = tool_varies_ ? n : 8;
+    std::vector<bool> missing(count, false);
     Block block, nominal;
     for (std::size_t from = 0; from < map.points.size(); from += points_at_once) {
       const std::size_t to = std::min(map.points.size(), from + points_at_once);
@@ -162,7 +164,10 @@ private:
         const double mean[] = {p.error_x, p.error_y, p.error_z}, length = std::hypot(mean[0], mean[1], mean[2]);
         SumsAtPoint& sum = sums[k];
         for (std::size_t i = 0; i < count; ++i) {
-          if (here.status[i] != 0) continue;
+          if (here.status[i] != 0) {
+            missing[i] = true;
+            continue;
+          }
           double e[3];
           for (std::size_t a = 0; a < 3; ++a) {
             const std::size_t line = 3 * (k - from) + a;
@@ -175,22 +180,24 @@ private:
         }
       }
     }
+    return static_cast<std::uint64_t>(std::ranges::count(missing, true));
   }
 
   void moments(VolumeMap& out, int threads) const {
     const std::size_t n = out.points.size(), samples = volume_.samples,
                       blocks = (samples + samples_at_once - 1) / samples_at_once;
     std::vector<SumsAtPoint> sums(blocks * n);
+    std::vector<std::uint64_t> failed(blocks);
     propagation::parallel_for(blocks, threads, [&](std::size_t b) {
       const std::size_t first = b * samples_at_once;
-      add(out, first, std::min(samples_at_once, samples - first), &sums[b * n]);
+      failed[b] = add(out, first, std::min(samples_at_once, samples - first), &sums[b * n]);
     });
+    out.failed = std::accumulate(failed.begin(), failed.end(), std::uint64_t{0});
     for (std::size_t k = 0; k < n; ++k) {
       const auto total = [&](auto member) {
-        return ordered_sum(blocks, [&](std::size_t b) { return member(sums[b * n + k]); });
+        return sum_of(blocks, [&](std::size_t b) { return member(sums[b * n + k]); });
       };
       const double count = total([](const SumsAtPoint& s) { return s.count; });
-      out.failed = std::max(out.failed, samples - static_cast<std::uint64_t>(count));
       const auto moment = [&](double sum, double square, double& mean, double& u) {
         mean += sum / count;
         u = std::sqrt(std::max(0.0, (square - sum * sum / count) / (count - 1)));
@@ -236,25 +243,25 @@ private:
 
   void causes(VolumeMap& out) const {
     const std::vector<double> c = sensitivities(out.largest, direction(out.points[out.largest]));
-    // Covariances with the linear error, over the same samples.
+    // Covariances of what is declared with the linear error: a draw may move several quantities.
     const std::size_t n = sources_.size();
+    std::vector<double> of_draw(plan_.variates.size(), 0.0);
+    for (std::size_t s = 0; s < n; ++s)
+      for (const std::size_t v : plan_.columns[sources_[s].column].variates) of_draw[v] += c[s];
+    quantities::Correlations correlations(plan_);
     std::vector<double> variance(n), with(n);
     double of_error = 0;
-    for (std::size_t first = 0; first < volume_.samples; first += samples_at_once) {
-      const std::size_t count = std::min<std::size_t>(samples_at_once, volume_.samples - first), rows = padded(count);
-      const std::vector<double> x = drawn(first, rows);
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto off = [&](std::size_t s) {
-          return varies(sources_[s]) ? x[s * rows + i] - values_[sources_[s].quantity] : 0.0;
-        };
-        double error = 0;
-        for (std::size_t s = 0; s < n; ++s) error += c[s] * off(s);
-        for (std::size_t s = 0; s < n; ++s) variance[s] += off(s) * off(s), with[s] += off(s) * error;
-        of_error += error * error;
+    for (std::size_t s = 0; s < n; ++s) {
+      const auto& own = plan_.columns[sources_[s].column].variates;
+      for (const std::size_t v : own) {
+        for (const std::size_t w : own) variance[s] += correlations.covariance(v, w);
+        for (std::size_t w = 0; w < of_draw.size(); ++w)
+          if (of_draw[w] != 0) with[s] += of_draw[w] * correlations.covariance(v, w);
       }
+      of_error += c[s] * with[s];
     }
-    const auto samples = static_cast<double>(volume_.samples);
-    out.linear_u = std::sqrt(of_error / samples);
+    of_error = std::max(0.0, of_error);
+    out.linear_u = std::sqrt(of_error);
     for (std::size_t s = 0; s < n; ++s) {
       const double value = values_[sources_[s].quantity];
       const QuantityCard& q = card_.quantities[sources_[s].quantity];
@@ -262,7 +269,7 @@ private:
                       std::string(q.unit),
                       std::string(q.si_unit),
                       value,
-                      std::sqrt(variance[s] / samples),
+                      std::sqrt(std::max(0.0, variance[s])),
                       c[s],
                       sources_[s].machine ? c[s] * value : 0,
                       of_error > 0 ? c[s] * with[s] / of_error : 0};
@@ -293,8 +300,8 @@ private:
           fmt::format(" {} causes the largest part of it, {}.", out.shares[0].name, text(out.shares[0].error));
     const auto most_uncertain = std::ranges::max_element(out.shares, {}, &VolumeShare::share);
     if (most_uncertain != out.shares.end() && most_uncertain->share > 0)
-      out.statement += fmt::format(" {} contributes most to its variance ({:.0f} %).", most_uncertain->name,
-                                   100 * most_uncertain->share);
+      out.statement += fmt::format(" {} contributes most to its variance ({}).", most_uncertain->name,
+                                   share_text(most_uncertain->share));
     if (!experiment_.scenario().stated_effects.empty() || experiment_.layout().effects.size() > 0)
       out.notes.emplace_back("effects on the readings are no errors of the machine's axes, and are not in the map");
   }

@@ -87,7 +87,8 @@ public:
     const auto hours = whole(2, 2);
     take(':');
     const auto minutes = done() ? std::optional(0) : whole(2, 2);
-    if (!hours || !minutes) return std::nullopt;
+    constexpr int farthest = 14; // hours: the Line Islands
+    if (!hours || !minutes || *hours > farthest || *minutes > 59) return std::nullopt;
     return (west ? -1 : 1) * (*hours * 3600 + *minutes * 60);
   }
 
@@ -145,7 +146,8 @@ struct Fields {
 std::optional<Moment> moment_of(const Fields& f) {
   using namespace std::chrono;
   const year_month_day date{year{f.year}, month{static_cast<unsigned>(f.month)}, day{static_cast<unsigned>(f.day)}};
-  if (!date.ok() || f.hour > 24 || f.minute > 59 || f.second > 60)
+  const bool after_midnight = f.hour == 24 && (f.minute > 0 || f.second > 0 || f.fraction > 0);
+  if (!date.ok() || f.hour > 24 || after_midnight || f.minute > 59 || f.second > 60)
     return std::nullopt; // a leap second, midnight as 24:00
   return Moment{sys_days{date}.time_since_epoch().count() * std::int64_t{86400} + std::int64_t{3600} * f.hour +
                     std::int64_t{60} * f.minute + f.second,

@@ -122,6 +122,9 @@ private:
     if (indication_ == indications.size()) {
       std::vector<std::string> names;
       for (const auto& i : indications) names.emplace_back(i.name);
+      if (names.empty())
+        refuse("the model has no indication", "what a control corrects is an error of indications",
+               "use the scenario of readings that gumshoe trace or gumshoe estimate wrote");
       refuse(request_.indication.empty() ? "there are several indications"
                                          : fmt::format("'{}' is not an indication", request_.indication),
              "", fmt::format("use --indication with one of {}", fmt::join(names, ", ")));

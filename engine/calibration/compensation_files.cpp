@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace gumshoe::calibration {
 namespace {
@@ -40,6 +41,7 @@ public:
 private:
   std::string written() {
     if (c_.format == "csv") return csv();
+    require_one_kind();
     require_name();
     make_points();
     if (c_.format == "linuxcnc") return linuxcnc(false);
@@ -47,6 +49,14 @@ private:
     if (c_.format == "sinumerik-eec") return eec();
     if (c_.format == "sinumerik-cec") return cec();
     return c_.format == "isg" ? isg() : etalon();
+  }
+
+  /// A control's table has errors in the unit of its positions.
+  void require_one_kind() const {
+    if (t_.position_si_unit != t_.indication_si_unit)
+      refuse(fmt::format("'{}' is {}, along '{}', which is {}", t_.indication, units::kind_name(t_.indication_si_unit),
+                         t_.position, units::kind_name(t_.position_si_unit)),
+             "this control corrects lengths along lengths, and angles along angles", "use --format csv");
   }
 
   /// It stands in the lines of the file as it is.
@@ -163,8 +173,9 @@ private:
   }
 
   std::string csv() {
-    const std::string e = t_.indication_si_unit == "m" ? "um" : angle_ ? "arcsec" : t_.indication_si_unit;
-    const double factor = e == "um" ? 1e6 : e == "arcsec" ? 3600 / degree : 1;
+    const bool length = t_.indication_si_unit == "m";
+    const char* const e = length ? "um" : "arcsec";
+    const double factor = length ? 1e6 : 3600 / degree;
     std::string out =
         fmt::format("# error: actual minus commanded position; correction: commanded minus actual, what the "
                     "control adds to the command\n"

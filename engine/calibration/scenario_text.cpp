@@ -1,6 +1,7 @@
 #include "calibration/scenario_text.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -66,10 +67,19 @@ void replace_readings(Node& document, const std::string& file) {
     if (Node* old = find_member(*data, "file")) *old = text_node(file);
 }
 
+/// Whether the keys of a section are names that its author chose, of which one may be "file".
+bool holds_names(const std::string& section) {
+  constexpr std::array sections{"quantities",    "stated_effects", "conditions", "indications", "measurands",
+                                "intermediates", "units",          "labels",     "columns",     "variables",
+                                "time",          "priors",         "by",         "where",       "map"};
+  return std::ranges::find(sections, section) != sections.end();
+}
+
 /// Data files are named relative to the scenario's folder.
-void move_paths(Node& node, const std::filesystem::path& from, const std::filesystem::path& to) {
+/// @param names  keys of the table are names
+void move_paths(Node& node, const std::filesystem::path& from, const std::filesystem::path& to, bool names = false) {
   for (Member& m : node.members) {
-    if ((m.key == "file" || m.key == "form") && m.value.kind == Node::Kind::text) {
+    if (!names && (m.key == "file" || m.key == "form") && m.value.kind == Node::Kind::text) {
       const std::filesystem::path path = m.value.text;
       if (path.is_relative()) m.value.text = std::filesystem::relative(from / path, to).generic_string();
     }
@@ -77,7 +87,7 @@ void move_paths(Node& node, const std::filesystem::path& from, const std::filesy
       if (const std::size_t colon = m.value.text.rfind(':', m.value.text.find('[')); colon != std::string::npos)
         if (const std::filesystem::path path = m.value.text.substr(0, colon); path.is_relative())
           m.value.text = std::filesystem::relative(from / path, to).generic_string() + m.value.text.substr(colon);
-    move_paths(m.value, from, to);
+    move_paths(m.value, from, to, !names && holds_names(m.key));
   }
   for (Node& item : node.items) move_paths(item, from, to);
 }
@@ -92,6 +102,28 @@ std::string opening(const std::string& scenario) {
     at = end == std::string::npos ? scenario.size() : end + 1;
   }
   return out;
+}
+
+/// Whether a draw, "rod_length[rod 2]: seat", is one of this quantity, or of these of its draws, "rod_length[rod 2]".
+bool is_draw_of(const std::string& draw, const std::string& name) {
+  return draw.starts_with(name) && (draw.size() == name.size() || draw[name.size()] == '[' || draw[name.size()] == ':');
+}
+
+/// Takes the draws of these quantities out of a stated correlation. True if no two are left to be tied.
+bool untied(Node& correlation, const std::vector<std::string>& names) {
+  Node* tied = find_member(correlation, "quantities");
+  if (!tied) return false;
+  Node* matrix = find_member(correlation, "matrix");
+  for (std::size_t i = tied->items.size(); i-- > 0;) {
+    if (std::ranges::none_of(names, [&](const std::string& name) { return is_draw_of(tied->items[i].text, name); }))
+      continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    tied->items.erase(tied->items.begin() + at);
+    if (!matrix) continue;
+    matrix->items.erase(matrix->items.begin() + at);
+    for (Node& row : matrix->items) row.items.erase(row.items.begin() + at);
+  }
+  return tied->items.size() < 2;
 }
 
 } // namespace
@@ -174,12 +206,7 @@ void ScenarioText::tie(const std::vector<std::string>& names, const std::vector<
                          {"matrix", 0, 0, list_node(std::move(rows))},
                          {"source", 0, 0, text_node(source)}};
   if (Node* old = find_member(document_, "correlations"))
-    std::erase_if(old->items, [&](Node& item) {
-      const Node* tied = find_member(item, "quantities");
-      return tied && std::ranges::any_of(tied->items, [&](const Node& n) {
-               return std::ranges::any_of(names, [&](const std::string& name) { return n.text.starts_with(name); });
-             });
-    });
+    std::erase_if(old->items, [&](Node& item) { return untied(item, names); });
   Node& all = member(document_, "correlations");
   all.kind = Node::Kind::array;
   all.items.push_back(std::move(correlation));

@@ -190,6 +190,12 @@ private:
       text = fmt::format("No candidate meets the target U = {:.6g}{}{}. The smallest U reached is {} in {}, with {}",
                          shown(choose_.target), unit, bias, width(f.expanded), duration(r_.fresh.time),
                          in_words(search_.settings_of(r_.fresh.values), r_.evaluations));
+    } else if (!r_.confirmed) {
+      text =
+          fmt::format("No setting is confirmed to meet the target U = {:.6g}{}{}. The one that fresh samples speak for "
+                      "most is {}. It takes {} and reaches U = {}",
+                      shown(choose_.target), unit, bias, in_words(search_.settings_of(r_.fresh.values), r_.evaluations),
+                      duration(r_.fresh.time), width(f.expanded));
     } else {
       text =
           fmt::format("The fastest setting that meets the target U = {:.6g}{}{}: {}. It takes {} and reaches U = {}",

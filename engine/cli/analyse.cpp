@@ -32,7 +32,7 @@ struct AnalyseOptions {
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
   refuse_shard(stored.identity, file);
-  if (stored.command() == "choose" || stored.command() == "trace")
+  if (!stored.identity.has_outputs())
     throw InputError(file + ": the file holds no samples", "gumshoe " + stored.command() + " made it",
                      "use gumshoe run");
   if (!stored.identity.store_samples)

@@ -64,7 +64,8 @@ void print_text(const Result& r, const std::string& file) {
     std::string text;
     for (std::size_t i = 0; i < std::min<std::size_t>(5, limits.size()); ++i)
       if (limits[i].second >= 0.005)
-        text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", limits[i].first, 100 * limits[i].second);
+        text +=
+            fmt::format("{}{} {}", text.empty() ? "" : ", ", limits[i].first, analysis::share_text(limits[i].second));
     std::cout << fmt::format("what limits it ({} of the variance): {}\n",
                              r.shapley.effects.empty() ? "total Sobol' indices" : "Shapley effects", text);
   }

@@ -99,7 +99,7 @@ void add_replay(CLI::App& app, Action& action) {
     action = [=] {
       const store::Stored stored = store::open_result(o->file);
       refuse_shard(stored.identity, o->file);
-      if (stored.command() == "choose" || stored.command() == "trace")
+      if (!stored.identity.has_outputs())
         throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.command() + " made it",
                          "use gumshoe run");
       store::require_sound_samples(o->file);

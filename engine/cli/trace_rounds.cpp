@@ -10,6 +10,7 @@
 
 #include "base/text_file.h"
 #include "cli/command.h"
+#include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/scenario_out/traced_scenario.h"
 
@@ -17,8 +18,11 @@ namespace gumshoe::cli {
 namespace {
 
 Round round_of(const tracing::Trace& t) {
-  Round out{{}, t.rms, t.vetoed, t.candidates};
-  for (const tracing::Finding& f : t.findings) out.added.push_back(f.name);
+  Round out{{}, {}, t.rms, t.vetoed, t.candidates};
+  for (const tracing::Finding& f : t.findings) {
+    out.added.push_back(f.name);
+    out.told.push_back(f.kind == tracing::Kind::not_in_catalogue ? tracing::briefly(f) : f.name);
+  }
   return out;
 }
 
@@ -66,6 +70,7 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
     if (only_again(found, shapes)) {
       Round& last = out.table.back();
       last.added.clear();
+      last.told.clear();
       last.rms.after = last.rms.before;
       last.rms.holdout_after = last.rms.holdout_before;
       out.first.statements.push_back(
@@ -102,7 +107,7 @@ std::string table(const std::vector<Round>& rounds) {
     };
     const std::string added = rounds[k].vetoed          ? "nothing: the held-out readings are not predicted better"
                               : rounds[k].added.empty() ? "nothing"
-                                                        : fmt::format("{}", fmt::join(rounds[k].added, "; "));
+                                                        : fmt::format("{}", fmt::join(rounds[k].told, "; "));
     out += fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   {}\n", k + 1, show(r.before),
                        show(r.after), show(r.holdout_before), show(r.holdout_after), show(r.noise),
                        show(r.replicate_floor), added);

@@ -1,27 +1,13 @@
 #include "math/products.h"
 
-#include "base/instruction_set.h"
+#include "base/kernel_choice.h"
 #include "math/products_kernels.h"
 
-extern "C" {
-extern const gumshoe::ProductKernels gumshoe_products_sse2, gumshoe_products_avx2, gumshoe_products_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::ProductKernels, products)
 
 namespace gumshoe {
 
-const ProductKernels& product_kernels() {
-#ifdef GUMSHOE_HAS_AVX2
-  switch (best_instruction_set()) {
-  case InstructionSet::avx512:
-    return gumshoe_products_avx512;
-  case InstructionSet::avx2:
-    return gumshoe_products_avx2;
-  default:
-    break;
-  }
-#endif
-  return gumshoe_products_sse2;
-}
+const ProductKernels& product_kernels() { return *GUMSHOE_BEST_KERNELS(products); }
 
 Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::MatrixXd& b) {
   eigen_assert(a.cols() <= 1 || a.outerStride() == a.rows());

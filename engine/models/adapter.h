@@ -33,8 +33,8 @@
 
 #include <fmt/format.h>
 
+#include "base/kernel_choice.h"
 #include "models/block.h"
-#include "models/kernel_choice.h"
 
 namespace gumshoe::models {
 
@@ -224,7 +224,7 @@ template <class M> constexpr Model row_of(const Kernels* (*kernels)()) {
 
 /// Defines gumshoe::models::FOLDER::model, the row of the struct TYPE of that namespace.
 #define GUMSHOE_MODEL_ROW(folder, type)                                                                                \
-  GUMSHOE_DECLARE_KERNELS(folder)                                                                                      \
+  GUMSHOE_DECLARE_KERNELS(gumshoe::models::Kernels, folder)                                                            \
   namespace gumshoe::models::folder {                                                                                  \
   extern const Model model;                                                                                            \
   constinit const Model model = row_of<type>([] { return GUMSHOE_BEST_KERNELS(folder); });                             \

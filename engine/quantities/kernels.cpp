@@ -1,35 +1,14 @@
 /// Picks the copy of the kernels that the processor can run.
 #include <atomic>
 
+#include "base/kernel_choice.h"
 #include "quantities/quantile_kernels.h"
 
-extern "C" {
-#define GUMSHOE_DECLARE(isa) extern const gumshoe::quantities::Kernels gumshoe_quantity_kernels_##isa;
-GUMSHOE_DECLARE(sse2)
-#ifdef GUMSHOE_HAS_AVX2
-GUMSHOE_DECLARE(avx2)
-#endif
-#ifdef GUMSHOE_HAS_AVX512
-GUMSHOE_DECLARE(avx512)
-#endif
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::quantities::Kernels, quantity_kernels)
 
 namespace gumshoe::quantities {
 
-const Kernels& kernels(InstructionSet set) {
-  switch (set) {
-#ifdef GUMSHOE_HAS_AVX512
-  case InstructionSet::avx512:
-    return gumshoe_quantity_kernels_avx512;
-#endif
-#ifdef GUMSHOE_HAS_AVX2
-  case InstructionSet::avx2:
-    return gumshoe_quantity_kernels_avx2;
-#endif
-  default:
-    return gumshoe_quantity_kernels_sse2;
-  }
-}
+const Kernels& kernels(InstructionSet set) { return *GUMSHOE_KERNELS(quantity_kernels, set); }
 
 namespace {
 std::atomic<const Kernels*>& selected() {

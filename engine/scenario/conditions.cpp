@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "quantities/cells.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -150,6 +151,32 @@ void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {
     }
     if (scenario.spreads.empty() && n > 1) reading.labels.emplace_back("repeat", fmt::format("{}", i + 1));
     scenario.readings.push_back(std::move(reading));
+  }
+}
+
+void take_reading(Scenario& alone, const Scenario& all, std::size_t reading) {
+  alone.readings = {all.readings[reading]};
+  if (!all.trace.order.empty()) alone.trace.order = {0};
+  for (std::size_t c = 0; c < all.trace.columns.size(); ++c)
+    if (const auto& values = all.trace.columns[c].values; !values.empty())
+      alone.trace.columns[c].values = {values[reading]};
+  for (std::size_t e = 0; e < all.stated_effects.size(); ++e)
+    for (std::size_t p = 0; p < all.stated_effects[e].parts.size(); ++p)
+      alone.stated_effects[e].parts[p].loading = {all.stated_effects[e].parts[p].loading[reading]};
+  const std::string number = fmt::format("{}", reading + 1);
+  for (std::size_t q = 0; q < all.quantities.size(); ++q) {
+    const auto& entries = all.quantities[q].entries;
+    const auto number_of = [](const quantities::Entry& e) {
+      return quantities::label_value(e.labels, quantities::reading_label);
+    };
+    if (std::ranges::none_of(entries, number_of)) continue;
+    alone.quantities[q].entries.clear();
+    for (quantities::Entry e : entries) {
+      if (const std::string* own = number_of(e); own && *own != number) continue;
+      for (auto& [label, value] : e.labels)
+        if (label == quantities::reading_label) value = "1";
+      alone.quantities[q].entries.push_back(std::move(e));
+    }
   }
 }
 

@@ -60,6 +60,7 @@ public:
     earlier_.state_units(document_, problems_);
     if (problems_.size() > unknown_sections) problems_.raise();
     out_.title = top.text("title").value_or("");
+    if (!out_.title.empty() && !out_.data.empty()) out_.title += fmt::format(" ({})", out_.data);
     context_.data = top.find("data");
     context_.trace = top.find("trace");
     const std::size_t before = problems_.size();
@@ -220,6 +221,7 @@ private:
         problems_.raise();
       }
       model = out_.made->card;
+      refuse_names_of_datasets(*table, *model);
       out_.external = context_.external.code;
     }
     const auto evaluations = model ? names_of(model->evaluations) : std::vector<std::string>{};
@@ -283,9 +285,22 @@ private:
     table->refuse_unknown();
   }
 
+  /// Names that stand in the result file next to the model's own, under /outputs and /readings.
+  void refuse_names_of_datasets(Table& table, const ModelCard& model) {
+    const auto refuse = [&](std::span<const VariableCard> variables, std::initializer_list<std::string_view> taken) {
+      for (const VariableCard& v : variables)
+        if (std::ranges::find(taken, v.name) != taken.end())
+          table.add(fmt::format("model: '{}' cannot be the name of a measurand, an indication or a condition", v.name),
+                    "a dataset of the result file has this name", "choose another name");
+    };
+    refuse(model.measurands, {"status", "sample", "reading"});
+    refuse(model.indications, {"status", "sample", "reading", "label", "repeats"});
+    refuse(model.conditions, {"reading", "label", "repeats"});
+  }
+
   /// What an effect's size is called, in place of the effect.
   void refuse_names_of_sizes(Table& table, const ModelCard& model) {
-    for (const Member& m : table.members()) {
+    for (const Member& m : table.node().members) {
       std::vector<std::string_view> effects;
       for (const EffectCard* effect : catalogue_.effects)
         if ((!catalogue_.applies || catalogue_.applies(model, *effect)) &&

@@ -121,8 +121,8 @@ std::optional<Uncertainty> read_earlier(Table& table, const Form& form, Context&
       return std::nullopt;
     }
     out.exact = !(u > 0);
-    if (deviation) out.value += output->estimate;
-    c.distribution = {Family::normal, {0, u}, {}, {}};
+    if (out.exact && deviation) out.value += output->estimate;
+    c.distribution = {Family::normal, {deviation ? output->estimate : 0, u}, {}, {}};
     context.note(fmt::format("{}: its samples are not stored; taken as {}", path,
                              std::isfinite(c.degrees_of_freedom) ? "a t distribution" : "normal"));
     return out;

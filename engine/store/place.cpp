@@ -27,6 +27,8 @@ std::string destination(const std::string& path) {
   if (fs::is_directory(status)) refuse("it is a directory", "give a file name");
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse("it is not a regular file");
   const fs::path folder = target.parent_path();
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    refuse("'" + folder.string() + "' is a file and no folder", "choose another place");
   if (!fs::is_directory(folder, error)) refuse("folder '" + folder.string() + "' does not exist", "create it first");
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse("folder '" + folder.string() + "': " + std::strerror(errno));
   if (fs::exists(status) && access(target.c_str(), R_OK | W_OK) != 0) refuse(std::strerror(errno));

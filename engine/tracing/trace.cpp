@@ -18,7 +18,9 @@
 #include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starting_values.h"
 #include "tracing/judgement/holdout.h"
+#include "tracing/judgement/rounds.h"
 #include "tracing/judgement/search.h"
+#include "tracing/judgement/shape_order.h"
 #include "tracing/scenario_out/composition.h"
 
 namespace gumshoe::tracing {
@@ -118,13 +120,27 @@ bool enough(const TraceContext& c, Trace& out) {
   return false;
 }
 
+bool has_lasting_step(const TraceContext& c, const Search& s) {
+  return std::ranges::any_of(s.found.terms,
+                             [&](const Term& t) { return is_lasting_step(t.candidate, c.observations); });
+}
+
 /// Compares before and after. If the hold-out blocks veto, all that was found in the last round is dropped, and they
 /// judge the rest anew. A rejected name gives way to what the readings show without it.
 void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
   const Trace start = out;
   std::vector<std::string> rejected;
-  for (out.vetoed = compare(c, found, out); out.vetoed && found.stages.size() > 1;
-       out.vetoed = compare(c, found, out)) {
+  out.vetoed = compare(c, found, out);
+  if (out.vetoed && has_lasting_step(c, found)) { // or one block differs
+    Search other = search_in_rounds(c, {.steps_last = false});
+    Trace judged = start;
+    if (!has_lasting_step(c, other) && !other.findings.empty() && !compare(c, other, judged)) {
+      found = std::move(other);
+      out = std::move(judged);
+      out.vetoed = false;
+    }
+  }
+  for (; out.vetoed && found.stages.size() > 1; out.vetoed = compare(c, found, out)) {
     const auto dropped = step_back(c, found);
     rejected.insert(rejected.begin(), dropped.begin(), dropped.end());
     out = start;

@@ -264,6 +264,7 @@ struct Trace {
 /// What one of several rounds added; what it found is in the scenario that the next one traces.
 struct Round {
   std::vector<std::string> added; ///< findings; empty: nothing
+  std::vector<std::string> told;  ///< the same, in words
   Rms rms;
   bool vetoed = false;
   std::vector<RankedCandidate> candidates; ///< best first

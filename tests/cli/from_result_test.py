@@ -81,6 +81,20 @@ class FromResult(Lengths):
             width = np.diff(np.quantile(old["values"], [share - 0.01, share + 0.01]))[0] / 0.02
             self.assertAlmostEqual(a, b, delta=5 * width * math.sqrt(share * (1 - share) / SAMPLES))
 
+    def test_a_component_is_a_deviation_with_its_estimate_whatever_is_stored(self):
+        """y = 5 +- 0.2, as samples, as figures alone, and exact, on a value of 10."""
+        uncertain = ('y = "a"', 'a = { value = "5", u = "0.2" }')
+        self.ran("kept", *uncertain)
+        self.ran("not_kept", *uncertain, more="store_samples = false\n")
+        self.ran("exact", 'y = "a"', 'a = { value = "5" }')
+        for earlier in ("kept", "not_kept", "exact"):
+            for value, total in (('value = "10", ', 15), ("", 5)):
+                with self.subTest(earlier, value=value):
+                    text = f'x = {{ {value}components = [{{ name = "c", from = "{earlier}.h5:y" }}, {{ name = "d", u = "0.1" }}] }}'
+                    new, u = self.figures(self.ran("sum_" + earlier + str(total), 'y = "x"', text)), 0.1 if earlier == "exact" else math.hypot(0.2, 0.1)
+                    self.assertAlmostEqual(new["estimate"], total, delta=5 * 0.3 / math.sqrt(SAMPLES))
+                    self.assertAlmostEqual(new["u"], u, delta=2 * SE * u)
+
     def test_outputs_of_one_file_keep_their_joint_distribution(self):
         """Sums of rectangular inputs, whose dependence no Gaussian copula has: every new sample is one of the earlier run."""
         self.ran("sums", 'p = "a + b"\nq = "a - 2 * b"', 'a = { value = "1", half_width = "0.3", distribution = "rectangular" }\n'

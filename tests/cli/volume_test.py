@@ -106,6 +106,24 @@ source = "one fit"
         self.assertAlmostEqual(out["points"][0]["u_x"], u, delta=5 * u / math.sqrt(2e4))
         self.assertAlmostEqual(out["linear_u"], u, delta=5 * u / math.sqrt(2e4))
 
+    def test_the_law_of_propagation_needs_no_samples(self):
+        """u and shares are of the declared covariances. Of what is drawn they have the direction of the mean error alone, which
+        is known to u / sqrt(100) of 36 um: half a percent."""
+        found = [self.map(SHIPPED.read_text(), "--samples", 100, "--seed", seed) for seed in (1, 2)]
+        one, other = ({c["name"]: c for c in out["causes"]} for out in found)
+        for name in one:
+            self.assertEqual(one[name]["standard_uncertainty"], other[name]["standard_uncertainty"])
+            self.assertAlmostEqual(one[name]["share"], other[name]["share"], delta=0.01, msg=name)
+        self.assertAlmostEqual(found[0]["linear_u"] / found[1]["linear_u"], 1, delta=0.01)
+        self.assertAlmostEqual(sum(c["share"] for c in found[0]["causes"]), 1, delta=1e-12)
+
+    def test_a_map_has_no_samples_to_replay_or_analyse(self):
+        self.map(THREE + '[quantities]\nE_XX = { value = "10 um", u = "3 um" }\n' + CUBE)
+        for command in (("replay", "v.h5", "--sample", 0), ("analyse", "v.h5")):
+            run = gumshoe(*command, cwd=self.folder)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertIn("gumshoe volume made it", run.stderr)
+
     def test_joints_of_a_robot(self):
         text = (ROOT / "scenarios" / "serial_chain.toml").read_text().replace('"data/', f'"{ROOT}/scenarios/data/')
         out = self.map(text + '\n[volume]\nJ1 = { from = "-90 deg", to = "90 deg", points = 3 }\nJ2 = { from = "-120 deg", to = "-60 deg", points = 4 }\n'

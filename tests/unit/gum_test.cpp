@@ -149,6 +149,19 @@ TEST_CASE("effective degrees of freedom are truncated, and k is from t", "[gum]"
   CHECK(b.coverage_factor == Approx(2.17881).epsilon(1e-5));
 }
 
+TEST_CASE("fully correlated inputs that cancel leave no variance, and no degrees of freedom to ask for", "[gum]") {
+  // z - L with r = 1 and equal u, by a copula: what is left of the variance is rounding, of either sign.
+  for (const double u : {0.1 * um, 0.7 * um, 3 * um}) {
+    auto s = rod2({{"rod_length", {component(Family::t, {0, u, 9}, 9)}}, {"spindle_z", {component(Family::t, {0, u, 9}, 9)}}});
+    s.correlations.push_back({quantities::Correlation::Kind::copula, {"rod_length", "spindle_z"}, {1, 1, 1, 1}});
+    const propagation::Experiment e(s);
+    const auto b = analysis::budget(e, 1, 0.95);
+    CHECK(b.combined_standard_uncertainty <= 1e-6 * u);
+    CHECK(std::isinf(b.effective_degrees_of_freedom));
+    CHECK(b.expanded_uncertainty <= 2e-6 * u);
+  }
+}
+
 TEST_CASE("correlated inputs: one correlation row, and no Welch-Satterthwaite", "[gum]") {
   auto s = rod2({{"rod_length", {component(Family::normal, {0, 3 * um})}},
                  {"spindle_z", {component(Family::normal, {0, 4 * um}, 9)}}});

@@ -4,17 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "base/kernel_choice.h"
 #include "base/units.h"
 #include "formula/finite.h"
 #include "formula/interpreter.h"
-#include "models/kernel_choice.h"
 
-GUMSHOE_DECLARE_KERNELS(expression)
-GUMSHOE_DECLARE_KERNELS(expression_evaluating)
-extern "C" {
-extern const gumshoe::models::KeepingKernels gumshoe_expression_keeping_sse2, gumshoe_expression_keeping_avx2,
-    gumshoe_expression_keeping_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::Kernels, expression)
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::Kernels, expression_evaluating)
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::KeepingKernels, expression_keeping)
 
 namespace gumshoe::models::expression {
 

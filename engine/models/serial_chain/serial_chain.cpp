@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "base/kernel_choice.h"
 #include "models/cards.h"
 #include "models/intermediates.h"
-#include "models/kernel_choice.h"
 #include "models/machine_rows.h"
 
-GUMSHOE_DECLARE_KERNELS(serial_chain)
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::Kernels, serial_chain)
 
 namespace gumshoe::models::serial_chain {
 

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/kernel_choice.h"
 #include "models/cards.h"
 #include "models/intermediates.h"
-#include "models/kernel_choice.h"
 #include "models/machine_rows.h"
 
-GUMSHOE_DECLARE_KERNELS(sphere_probing)
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::Kernels, sphere_probing)
 
 namespace gumshoe::models::probing {
 

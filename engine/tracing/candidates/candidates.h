@@ -62,6 +62,7 @@ struct Candidate {
   double exact_ratio = 0; ///< 2 ln L of these sizes over none, by the exact model
   Form form = Form::fixed;
   double parameter = 0, parameter_u = 0; ///< of its form, and the standard uncertainty
+  double size_u = 0;                     ///< of a single size, whatever the parameter is; 0: not known
   double searched = 1;                   ///< independent forms of which this is the best; the p-value counts as often
   /// An effect at some of the readings only: of one rod, of one set-up.
   bool in_part() const { return family == Family::effect && rare(); }

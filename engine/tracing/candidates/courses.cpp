@@ -66,6 +66,15 @@ std::vector<Index> instants(const Observations& o, const std::vector<Index>& row
   return {fitted.begin() + index(few), fitted.end() - index(few) + 1};
 }
 
+/// Those at which a block begins.
+std::vector<Index> beginnings_of_blocks(const Observations& o, const std::vector<Index>& places) {
+  std::vector<Index> out;
+  for (const Index at : places)
+    if (!o.blocks.group.empty() && o.blocks.group[o.sequence[index(at)]] != o.blocks.group[o.sequence[index(at - 1)]])
+      out.push_back(at);
+  return out;
+}
+
 /// Time since the first reading, over the range, in the order of measurement.
 Vector since_the_first(const Observations& o, const Covariate& c) {
   Vector out(index(o.readings));
@@ -222,11 +231,19 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       const double share = Drifts(o, c, i).best(gain);
       out.push_back(drift(o, c, i, std::log(share)));
       out.back().searched = criteria.drift_forms;
+      if (c.comes_back) continue; // what happened at one instant, happened once
       const Steps steps(o, i);
       const Index from = steps.best(places, gain);
-      const std::size_t reading = o.sequence[static_cast<std::size_t>(from - 1)] + 1;
-      out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({from})));
-      out.back().searched = static_cast<double>(places.size());
+      const auto step = [&](Index at, std::size_t of) {
+        const std::size_t reading = o.sequence[static_cast<std::size_t>(at - 1)] + 1;
+        out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({at})));
+        out.back().searched = static_cast<double>(of);
+      };
+      // Between two blocks things are moved: there are fewer such instants.
+      const std::vector<Index> beginnings = beginnings_of_blocks(o, places);
+      const Index beginning = beginnings.empty() ? from : steps.best(beginnings, gain);
+      if (beginning != from) step(from, places.size());
+      step(beginning, beginnings.empty() ? places.size() : beginnings.size());
       const double range = c.levels.back() - c.levels.front();
       const auto place = [&](const char* kind, double (*profile)(double), double length_of_width) {
         const Placed all(o, c, i, profile);

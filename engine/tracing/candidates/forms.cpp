@@ -16,6 +16,7 @@ Candidate with_parameter(const Observations& o, const Candidate& shape, double p
       shape.form == Form::wave ? wave(o, *along, indication, parameter) : drift(o, *along, indication, parameter);
   out.searched = shape.searched;
   out.parameter_u = shape.parameter_u;
+  out.size_u = shape.size_u;
   return out;
 }
 

@@ -95,9 +95,10 @@ public:
 
 private:
   /// One candidate per indication.
+  /// @param labels  of the readings that it moves alone
   void add(Family family, const std::string& name, const Matrix& by_reading, const std::vector<std::string>& depends_on,
-           const std::string& shape = "") {
-    if (by_reading.cols() == 1 && of_the_start(by_reading)) return;
+           const std::string& shape = "", const std::vector<std::pair<std::string, std::string>>& labels = {}) {
+    if (by_reading.cols() == 0 || (by_reading.cols() == 1 && of_the_start(by_reading))) return;
     const auto k = index(o_.indications);
     for (Index i = 0; i < k; ++i) {
       Candidate a;
@@ -110,6 +111,7 @@ private:
         Amplitude size;
         size.quantity = Amplitude::npos;
         size.name = "size";
+        size.labels = labels;
         a.amplitudes.push_back(size);
       }
       a.depends_on = depends_on;
@@ -251,20 +253,24 @@ private:
     for (Index r = 0; r < x.size(); ++r)
       if (g.group[o_.sequence[index(r)]] == i) one[r] = x[r], levels.insert(x[r]);
     if (levels.size() < 2) return;
-    add(Family::shape, name, one, {c.name, g.name});
-    for (auto a = out_.end() - index(o_.indications); a != out_.end(); ++a)
-      a->amplitudes[0].labels = {{g.name, g.values[i][0]}};
+    add(Family::shape, name, one, {c.name, g.name}, "", {{g.name, g.values[i][0]}});
   }
 
   /// Something was hit or slipped on the way there, or on the way back: one pass of a block differs, or its reversal.
+  /// Of the first and the last pass a step in time says the same.
   void passes(const Covariate& direction, const Grouping& blocks) {
     if (blocks.groups.size() > criteria.most_label_groups) return;
     const Vector way = plain(o_, direction);
+    const auto pass = [&](std::size_t r) { return std::pair(blocks.group[r], direction.value[r]); };
+    const auto fitted = [&](std::size_t r) { return o_.held_out.empty() || !o_.held_out[r]; };
+    const auto first = std::ranges::find_if(o_.sequence, fitted),
+               last = std::find_if(o_.sequence.rbegin(), o_.sequence.rend(), fitted).base() - 1;
     for (std::size_t i = 0; i < blocks.groups.size(); ++i) {
       in_group(direction, blocks, i);
       for (const double level : direction.levels)
-        in_group((way.array() == level).cast<double>(), direction, blocks, i,
-                 fmt::format("step:{} with {} {:g}", blocks.groups[i], direction.name, level));
+        if (const std::pair one(i, level); one != pass(*first) && one != pass(*last))
+          in_group((way.array() == level).cast<double>(), direction, blocks, i,
+                   fmt::format("step:{} with {} {:g}", blocks.groups[i], direction.name, level));
     }
   }
 
@@ -275,7 +281,8 @@ private:
   void tables() {
     std::vector<const Covariate*> repeated;
     for (const Covariate& c : o_.covariates)
-      if (!c.course && !numbers_groups(o_, c) && c.levels.size() * criteria.least_repeats <= o_.readings)
+      if ((!c.course || c.comes_back) && !numbers_groups(o_, c) &&
+          c.levels.size() * criteria.least_repeats <= o_.readings)
         repeated.push_back(&c);
     for (std::size_t i = 0; i < repeated.size(); ++i) {
       if (!is_a_table(*repeated[i])) table({repeated[i]});
@@ -376,7 +383,7 @@ private:
 
 Matrix smooth_basis(const Observations& o, const Covariate& all, int most) {
   const auto n = index(o.readings);
-  const Covariate c = all.course ? within_training(o, all) : all;
+  const Covariate c = all.course && !all.comes_back ? within_training(o, all) : all;
   const Vector raw = plain(o, c), x = scaled(o, c);
   if (static_cast<int>(c.levels.size()) <= most + 1) {
     Matrix out = Matrix::Zero(n, index(c.levels.size()) - 1);

@@ -125,7 +125,7 @@ std::vector<Candidate> waves(const Observations& o, const std::vector<const Cand
   const bool programme =
       std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !c.course; });
   for (const Covariate& c : o.covariates) {
-    const Gain& gain = c.course && programme ? in_time : plain;
+    const Gain& gain = c.course && !c.comes_back && programme ? in_time : plain;
     if (!gain || c.angle || !(c.course || c.commanded) || c.levels.size() < 2) continue;
     const std::vector<double> levels = places(c);
     if (levels.size() <= criteria.levels_for_fine_omnibus) continue;

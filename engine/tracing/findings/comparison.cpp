@@ -71,7 +71,9 @@ public:
     }
     std::vector<Index> every(index(after_.residual.size()));
     std::iota(every.begin(), every.end(), 0);
-    noise_ = noise_of_readings(every);
+    const bool in_turn = c_.observations.holdout_blocks.empty();
+    noise_ = noise_of_readings(every, in_turn ? std::vector<Index>{} : draws_of_held_out());
+    predicted_noise_ = in_turn ? noise_of_readings(every, draws_of_single_blocks()) : noise_;
   }
 
   bool compare() {
@@ -96,13 +98,30 @@ public:
   }
 
 private:
-  /// Draws of the fitted noise, all rows x sets. Declared draws that the training data show are part of the fit and
-  /// stay out; those of a single block are not predicted, and so belong to what its readings scatter.
-  Matrix noise_of_readings(const std::vector<Index>& every) const {
+  /// Declared draws that no training reading shows.
+  std::vector<Index> draws_of_held_out() const {
+    const Matrix& random = after_.design.random;
+    std::vector<Index> out;
+    for (Index j = 0; j < random.cols(); ++j)
+      if (random(rows_, j).isZero(0)) out.push_back(j);
+    return out;
+  }
+
+  /// Declared draws of one block each, where every block is left out in turn.
+  std::vector<Index> draws_of_single_blocks() const {
+    const Matrix& random = after_.design.random;
+    const Blocks blocks = predicted_blocks(c_.observations);
+    std::vector<Index> out;
+    for (Index j = 0; j < random.cols(); ++j)
+      if (std::ranges::count_if(blocks.rows, [&](const auto& rows) { return !random(rows, j).isZero(0); }) == 1)
+        out.push_back(j);
+    return out;
+  }
+
+  /// Draws of the fitted noise, all rows x sets. Declared draws that the fitted data show are part of the fit and stay
+  /// out; those of a block that is predicted, `own`, are not, and so belong to what its readings scatter.
+  Matrix noise_of_readings(const std::vector<Index>& every, const std::vector<Index>& own) const {
     Design design = after_.design;
-    std::vector<Index> own;
-    for (Index j = 0; j < design.random.cols() && !c_.observations.holdout_blocks.empty(); ++j)
-      if (design.random(rows_, j).isZero(0)) own.push_back(j);
     design.random = Matrix(design.random(Eigen::all, own));
     std::vector<int> bent;
     for (const Index j : own) bent.push_back(design.bent[index(j)]);
@@ -164,8 +183,8 @@ private:
     scored_before_ = predict(base_, base_.residual, blocks);
     scored_after_ = predict(after_, after_.residual, blocks);
     if (scored_before_.scored())
-      set_noise_alone(predict(after_, not_fitted(noise_), blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
-                      rms.holdout_noise_high);
+      set_noise_alone(predict(after_, not_fitted(predicted_noise_), blocks).rms, rms.holdout_noise,
+                      rms.holdout_noise_low, rms.holdout_noise_high);
     else
       rms.holdout += "; not scored, because it has no more readings than block offsets";
     const Vector bad = excess(scored_before_, scored_after_, after_.design);
@@ -386,7 +405,8 @@ private:
   JointFit previous_; ///< without what the last round found
   bool has_previous_; ///< it is not the first round
   Trace& out_;
-  Matrix noise_; ///< draws of the fitted noise, all rows x sets
+  Matrix noise_;           ///< draws of the fitted noise, all rows x sets
+  Matrix predicted_noise_; ///< the same of readings that were not fitted
   Scores scored_before_, scored_after_;
 };
 

@@ -116,7 +116,8 @@ public:
     const double constant = std::exp(term_.candidate.parameter) * (time.levels.back() - time.levels.front());
     return fmt::format("{}; until it levels off it changes by {}",
                        with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit, counted(time)),
-                       with_u(term_.size[0], std::sqrt(covariance_(0, 0)), unit_, empty_.indication_si_unit));
+                       with_u(term_.size[0], std::max(term_.candidate.size_u, std::sqrt(covariance_(0, 0))), unit_,
+                              empty_.indication_si_unit));
   }
 
   /// "period 3.31 s, u = 0.01 s; amplitude 1.5 um, u = 0.2 um" of a wave; empty of anything else.

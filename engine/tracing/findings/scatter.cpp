@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include "tracing/criteria.h"
@@ -18,37 +18,52 @@ double lowest(double left, double middle, double right) {
   return bend > 0 ? 0.5 * (left - right) / bend : 0;
 }
 
+/// Where ln(t) + 1 / t - 1, which is what a variance t times the best one lacks in likelihood, reaches a limit: ln(t).
+/// @param side  -1 below the best, 1 above it
+double noise_within(double limit, int side) {
+  double x = side * std::sqrt(2 * limit);
+  constexpr int iterations = 8; // Newton's, of a convex function near its parabola
+  for (int i = 0; i < iterations && limit > 0; ++i) x -= (x + std::expm1(-x) - limit) / -std::expm1(-x);
+  return x;
+}
+
 } // namespace
 
 ScatterSize size_of_scatter(const TraceContext& c, const JointFit& fit, int component) {
-  // Profile likelihood over the ratio, the other structure as fitted.
+  // Likelihood over the ratio to the noise, the other structure as fitted.
   const auto& rows = c.fitter.rows();
   const int indication = fit.covariance_model.scatter == component ? fit.covariance_model.indication : -1;
   const auto use = independent(fit.design, rows);
   const Whitened plain(fit.design, rows, use, {});
   const Matrix data = plain.winsorised(plain.take(fit.residual));
   const double freedom = static_cast<double>(rows.size() - use.size());
-  const auto at = [&](double step) { // criterion, size
+  struct Ratio {
+    double criterion, size; // -2 ln L with the noise that fits best, and the size then
+  };
+  const auto at = [&](double step) {
     const double ratio = criteria.scatter_low * std::pow(criteria.scatter_span, step / criteria.scatter_steps);
     const Whitened w(plain, {fit.covariance_model.correlation, component, ratio, indication});
     const double left = w.squares(data)[0];
-    return std::array{freedom * std::log(left) + w.log_determinant(), ratio * std::sqrt(left / freedom)};
+    return Ratio{freedom * std::log(left) + w.log_determinant(), ratio * std::sqrt(left / freedom)};
   };
-  std::vector<std::array<double, 2>> profile;
-  for (int i = 0; i <= criteria.scatter_steps; ++i) profile.push_back(at(i));
-  const auto found = std::ranges::min_element(profile);
-  auto best = *found;
-  if (found != profile.begin() && found + 1 != profile.end())
-    if (const auto between =
-            at(static_cast<double>(found - profile.begin()) + lowest((*(found - 1))[0], best[0], (*(found + 1))[0]));
-        between[0] < best[0])
+  std::vector<Ratio> all;
+  for (int i = 0; i <= criteria.scatter_steps; ++i) all.push_back(at(i));
+  const auto found = std::ranges::min_element(all, {}, &Ratio::criterion);
+  Ratio best = *found;
+  if (found != all.begin() && found + 1 != all.end())
+    if (const Ratio between = at(static_cast<double>(found - all.begin()) +
+                                 lowest((found - 1)->criterion, best.criterion, (found + 1)->criterion));
+        between.criterion < best.criterion)
       best = between;
-  ScatterSize out{best[1], best[1], best[1], indication};
-  for (const auto& [criterion, size] : profile)
-    if (criterion < best[0] + criteria.decisive) {
-      out.low = std::min(out.low, size);
-      out.high = std::max(out.high, size);
-    }
+  // At each ratio the noise may be another: as far as the likelihood of the size allows it.
+  ScatterSize out{best.size, best.size, best.size, indication};
+  all.push_back(best);
+  for (const Ratio& one : all) {
+    const double slack = criteria.decisive - (one.criterion - best.criterion);
+    if (slack < 0) continue;
+    out.low = std::min(out.low, one.size * std::exp(noise_within(slack / freedom, -1) / 2));
+    out.high = std::max(out.high, one.size * std::exp(noise_within(slack / freedom, 1) / 2));
+  }
   return out;
 }
 
@@ -85,10 +100,12 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, const FittedSc
   const double unit = fit.design.reference[0] * std::sqrt(fit.variance);
   if (component < 0) { // of single readings: the noise is larger than declared
     q.value = unit;
-    const auto freedom = static_cast<double>(c.fitter.rows().size());
+    const auto& rows = c.fitter.rows();
+    const auto freedom = static_cast<double>(rows.size() - independent(fit.design, rows).size());
+    const boost::math::chi_squared squares(freedom);
     q.u = unit / std::sqrt(2 * freedom);
-    q.low95 = q.value - 1.96 * q.u;
-    q.high95 = q.value + 1.96 * q.u;
+    q.low95 = unit * std::sqrt(freedom / quantile(squares, 0.975));
+    q.high95 = unit * std::sqrt(freedom / quantile(squares, 0.025));
     if (const double declared = unit / (fit.noise * std::sqrt(fit.variance)); c.fitter.noise_declared())
       finding.remarks.push_back(fmt::format("single readings scatter by {}; {} is declared",
                                             shown_size(unit, q.unit, q.si_unit),

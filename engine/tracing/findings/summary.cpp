@@ -157,7 +157,8 @@ std::string what_was_found(const Finding& f, const std::string& of) {
   return {};
 }
 
-/// "axis_drift (amplitude 1.5 um)"
+} // namespace
+
 std::string briefly(const Finding& f) {
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
   switch (f.kind) {
@@ -181,6 +182,8 @@ std::string briefly(const Finding& f) {
   }
   return {};
 }
+
+namespace {
 
 /// Whether the hold-out blocks rejected it: a shape that they reject is reported, and not added.
 bool is_rejected(const Trace& t, const Finding& f) { return t.vetoed && f.kind == Kind::not_in_catalogue; }

@@ -58,7 +58,11 @@ JointFit with_tuned_forms(const TraceContext& c, JointFit fit) {
       const Index j = at - use.begin();
       Term& term = terms[sought[index(w)]];
       const double u = std::sqrt(covariance(j, j) * fit.variance), by = step_of(term.candidate, x[j]);
-      fit.terms[sought[index(w)]].candidate.parameter_u = term.candidate.parameter_u = u;
+      const std::size_t t = sought[index(w)];
+      fit.terms[t].candidate.parameter_u = term.candidate.parameter_u = u;
+      if (const auto size = std::ranges::find(use, first_column(fit, t)); size != use.end())
+        fit.terms[t].candidate.size_u = term.candidate.size_u =
+            std::sqrt(covariance(size - use.begin(), size - use.begin()) * fit.variance);
       if (std::fabs(by) <= settled * u) continue;
       more = true;
       Candidate tuned = with_parameter(c.observations, term.candidate, term.candidate.parameter + by);

@@ -289,7 +289,7 @@ private:
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
     std::optional<std::pair<std::size_t, JointFit>> unconfirmed;
-    std::vector<Trial> tried = shape_trials(c_, *evidence_);
+    std::vector<Trial> tried = shape_trials(c_, *evidence_, sought_.steps_last);
     if (tried.empty()) return false;
     std::vector<std::pair<std::size_t, JointFit>> described;
     for (auto& [a, fit, ratio, score, implausible] : tried) {

@@ -7,6 +7,7 @@ namespace gumshoe::tracing {
 struct Sought {
   bool names = true;            ///< effects and declared quantities are candidates, and not shapes alone
   bool shapes_for_noise = true; ///< a shape may be there in place of larger noise
+  bool steps_last = true;       ///< where the data cannot tell whether a step lasts or one block differs, it lasts
 };
 
 /// What the ranking says of a candidate that was taken.

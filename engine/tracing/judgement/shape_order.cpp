@@ -71,6 +71,37 @@ void drift_before_blocks(const TraceContext& c, const Evidence& e, std::vector<T
   });
 }
 
+/// Whether one block differs, or one pass of it.
+bool of_one_block(const Candidate& a, const Observations& o) {
+  return !a.physical() && a.columns.cols() == 1 && a.depends_on.back() == o.blocks.name &&
+         (a.name.starts_with("step:") || a.rare());
+}
+
+/// The last block of those that are fitted says the same as a step that begins with it, and of aligned blocks any does.
+/// What changed is expected to stay so; held-out readings tell. There are more instants than blocks, so that the step
+/// need not pass by itself.
+void settle_steps(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
+  const auto lasts = [&](std::size_t a) { return is_lasting_step(e.candidates()[a], c.observations); };
+  constexpr double rounding = 1e-3;
+  const auto same = [&, ratio = tried[0].ratio](const Trial& t) { return std::fabs(t.ratio - ratio) <= rounding; };
+  if (!steps_last) {
+    const auto block = std::ranges::find_if(
+        tried, [&](const Trial& t) { return of_one_block(e.candidates()[t.candidate], c.observations) && same(t); });
+    if (block == tried.end()) return;
+    std::rotate(tried.begin(), block, block + 1);
+    std::erase_if(tried, [&](const Trial& t) { return lasts(t.candidate) && same(t); });
+    return;
+  }
+  if (!of_one_block(e.candidates()[tried[0].candidate], c.observations)) return;
+  for (std::size_t a = 0; a < e.candidates().size(); ++a)
+    if (lasts(a))
+      if (Trial one = e.trial(a); one.fit.valid && same(one)) {
+        std::erase_if(tried, [&](const Trial& t) { return t.candidate == a; });
+        tried.insert(tried.begin(), std::move(one));
+        return;
+      }
+}
+
 void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
   if (!c.fitter.noise_declared() || scatters_as_declared(c, tried[0].fit)) return;
   const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
@@ -81,11 +112,17 @@ void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<
 
 } // namespace
 
-void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
+bool is_lasting_step(const Candidate& a, const Observations& o) {
+  return a.name.starts_with("step:") &&
+         std::ranges::any_of(o.covariates, [&](const Covariate& x) { return x.course && x.name == a.depends_on[0]; });
+}
+
+void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
   straighten(c, e, tried);
   drift_before_blocks(c, e, tried);
   lower_power(c, e, tried);
   leave_declared_noise(c, e, tried);
+  settle_steps(c, e, tried, steps_last);
 }
 
 bool is_one_of_several_forms(const Evidence& e, std::size_t a) {

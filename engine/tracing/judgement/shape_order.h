@@ -11,8 +11,13 @@ namespace gumshoe::tracing {
 /// line in time before blocks that differ; a lower power before a higher one. Then, where noise is declared, a shape of
 /// one size that leaves noise as it was declared goes before one that leaves more, for which correlated noise would
 /// have to make up: a jump before a cubic in time.
-/// @param tried  best first, at least one
-void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried);
+/// At last a step in time and a block, or a pass, that differs, where they are the same in what is fitted.
+/// @param tried       best first, at least one
+/// @param steps_last  a step lasts; false: that was refuted, and the block differs
+void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried, bool steps_last);
+
+/// A step in time, or in the order of measurement, which goes on beyond the readings.
+bool is_lasting_step(const Candidate& candidate, const Observations& observations);
 
 /// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
 /// takes that of errors that are zero at either end.

@@ -48,7 +48,7 @@ std::vector<Trial> physical_trials(const Evidence& evidence, std::vector<Trial>&
   return out;
 }
 
-std::vector<Trial> shape_trials(const TraceContext& c, const Evidence& evidence) {
+std::vector<Trial> shape_trials(const TraceContext& c, const Evidence& evidence, bool steps_last) {
   const Assessment& assessment = evidence.assessment();
   auto shapes = evidence.best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
   std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
@@ -60,7 +60,7 @@ std::vector<Trial> shape_trials(const TraceContext& c, const Evidence& evidence)
   // Equal shapes differ by rounding: then as they were made.
   const auto place = [](const Trial& t) { return std::pair{-std::round(t.score * 1e3), t.candidate}; };
   std::ranges::sort(tried, std::ranges::less{}, place);
-  order_shapes(c, evidence, tried);
+  order_shapes(c, evidence, tried, steps_last);
   if (const auto simpler = simpler_beside_another(evidence, c.observations, tried[0].candidate))
     if (Trial one = evidence.trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
   return tried;

@@ -17,6 +17,6 @@ std::vector<Trial> physical_trials(const Evidence& evidence, std::vector<Trial>&
 
 /// Shapes that pass by themselves, in the order in which they are there (shape_order.h), a simpler one of the same with
 /// another finding before them.
-std::vector<Trial> shape_trials(const TraceContext& context, const Evidence& evidence);
+std::vector<Trial> shape_trials(const TraceContext& context, const Evidence& evidence, bool steps_last);
 
 } // namespace gumshoe::tracing

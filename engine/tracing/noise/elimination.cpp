@@ -3,28 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/instruction_set.h"
+#include "base/kernel_choice.h"
 
-extern "C" {
-extern const gumshoe::tracing::EliminationKernels gumshoe_elimination_sse2, gumshoe_elimination_avx2,
-    gumshoe_elimination_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::tracing::EliminationKernels, elimination)
 
 namespace gumshoe::tracing {
 
-const EliminationKernels& elimination_kernels() {
-#ifdef GUMSHOE_HAS_AVX2
-  switch (best_instruction_set()) {
-  case InstructionSet::avx512:
-    return gumshoe_elimination_avx512;
-  case InstructionSet::avx2:
-    return gumshoe_elimination_avx2;
-  default:
-    break;
-  }
-#endif
-  return gumshoe_elimination_sse2;
-}
+const EliminationKernels& elimination_kernels() { return *GUMSHOE_BEST_KERNELS(elimination); }
 
 namespace {
 

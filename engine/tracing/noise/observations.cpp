@@ -111,10 +111,10 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
   auto sets = s.trace.redone.value_or(std::vector<std::vector<std::string>>{});
   if (!s.trace.redone) {
     const auto names = label_names(s);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      sets.push_back({names[i]});
+    // Not all are tried: one that numbers what was done anew goes before two that number it together.
+    for (const std::string& name : names) sets.push_back({name});
+    for (std::size_t i = 0; i < names.size(); ++i)
       for (std::size_t j = i + 1; j < names.size(); ++j) sets.push_back({names[i], names[j]});
-    }
     // What comes back from block to block is no scatter but a correction. What a label, or two, have of each block alone
     // does not come back: a set-up that is numbered and done anew.
     if (!s.trace.blocks.empty()) {
@@ -202,6 +202,14 @@ const Covariate* set_in_order(const Observations& o) {
   return nullptr;
 }
 
+/// Whether a course goes back in the order of measurement, to values that it had before.
+bool begins_anew(const Observations& o, const Covariate& c) {
+  const auto earlier = [&](std::size_t later, std::size_t before) { return c.value[later] < c.value[before]; };
+  return c.levels.size() * criteria.least_repeats <= o.readings &&
+         std::ranges::adjacent_find(o.sequence, [&](std::size_t a, std::size_t b) { return earlier(b, a); }) !=
+             o.sequence.end();
+}
+
 } // namespace
 
 bool counts_readings(const Covariate& c) {
@@ -258,8 +266,11 @@ Observations observe(const propagation::Experiment& e) {
                   std::string(card.conditions[c].si_unit), one, true);
   }
   for (const auto& c : s.trace.columns) add_covariate(o, c.name, c.unit, c.si_unit, c.values);
-  for (Covariate& c : o.covariates) c.course = c.name == s.trace.order_name || c.name == "time";
-  const bool timed = std::ranges::any_of(o.covariates, &Covariate::course);
+  for (Covariate& c : o.covariates) {
+    c.course = c.name == s.trace.order_name || c.name == "time";
+    c.comes_back = c.course && begins_anew(o, c);
+  }
+  const bool timed = std::ranges::any_of(o.covariates, [](const Covariate& c) { return c.course && !c.comes_back; });
   if (const Covariate* set = timed ? nullptr : set_in_order(o))
     o.statements.push_back(fmt::format("{} was set in the order of measurement, each value once; what depends on the "
                                        "order cannot be distinguished from what depends on {}",

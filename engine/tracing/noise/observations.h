@@ -15,6 +15,9 @@ struct Covariate {
   bool angle = false;
   bool commanded = false; ///< a condition of the model, and no column that was only recorded
   bool course = false;    ///< time, or the order of measurement
+  /// A course that begins anew, such as the time since the start of each day: its values come back, as those of a
+  /// condition do, and it does not tell one reading from all before.
+  bool comes_back = false;
 };
 
 /// Whether a covariate is the number of the reading, and no other course that has no unit, such as decimal years.

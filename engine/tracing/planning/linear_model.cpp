@@ -13,6 +13,7 @@
 #include "base/units.h"
 #include "calibration/data.h"
 #include "quantities/cells.h"
+#include "scenario/conditions.h"
 #include "tracing/candidates/extended_scenario.h"
 #include "tracing/criteria.h"
 #include "tracing/judgement/holdout.h"
@@ -85,13 +86,7 @@ private:
     const std::size_t first = one_each.readings.size() - plan_.readings.size();
     std::string why;
     for (std::size_t i = 0; i < plan_.readings.size(); ++i) {
-      alone.readings = {one_each.readings[first + i]};
-      if (!alone.trace.order.empty()) alone.trace.order = {0};
-      for (std::size_t c = 0; c < alone.trace.columns.size(); ++c)
-        alone.trace.columns[c].values = {one_each.trace.columns[c].values[first + i]};
-      for (std::size_t e = 0; e < alone.stated_effects.size(); ++e)
-        for (std::size_t p = 0; p < alone.stated_effects[e].parts.size(); ++p)
-          alone.stated_effects[e].parts[p].loading = {one_each.stated_effects[e].parts[p].loading[first + i]};
+      scenario::take_reading(alone, one_each, first + i);
       const std::string reason = impossible(alone);
       if (reason.empty())
         out_.allowed.push_back(i);

@@ -1,11 +1,8 @@
 #include "models/tool_length/trigger/curve_table.h"
 
-#include "models/kernel_choice.h"
+#include "base/kernel_choice.h"
 
-extern "C" {
-extern const gumshoe::models::tool_length::CurveTableKernels gumshoe_curve_table_sse2, gumshoe_curve_table_avx2,
-    gumshoe_curve_table_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::tool_length::CurveTableKernels, curve_table)
 
 namespace gumshoe::models::tool_length {
 

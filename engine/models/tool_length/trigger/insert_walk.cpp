@@ -1,15 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/kernel_choice.h"
+#include "base/kernel_choice.h"
 #include "models/tool_length/trigger/insert_descent.h"
 #include "models/tool_length/trigger/insert_trigger.h"
 #include "models/tool_length/trigger/insert_walk_kernels.h"
 
-extern "C" {
-extern const gumshoe::models::tool_length::WalkKernels gumshoe_insert_walk_sse2, gumshoe_insert_walk_avx2,
-    gumshoe_insert_walk_avx512;
-}
+GUMSHOE_DECLARE_KERNELS(gumshoe::models::tool_length::WalkKernels, insert_walk)
 
 namespace gumshoe::models::tool_length {
 
