@@ -27,9 +27,9 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::temperature, {"temp", "temperature", "temperatur"}},
       {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
       {ColumnRole::cycle,
-       {"cycle",    "run",        "repeat",    "repetition", "pass",      "lauf",    "zyklus",     "setup",
-        "series",   "reihe",      "messreihe", "serie",      "durchgang", "trial",   "round",      "runde",
-        "expt",     "experiment", "versuch",   "replicate",  "rep",       "session", "sitzung",    "visit",
+       {"cycle",    "run",        "repeat",    "repetition", "pass",      "lauf",       "zyklus",   "setup",
+        "series",   "reihe",      "messreihe", "serie",      "durchgang", "trial",      "round",    "runde",
+        "expt",     "experiment", "versuch",   "replicate",  "rep",       "session",    "sitzung",  "visit",
         "campaign", "sweep",      "lap",       "umlauf",     "rev",       "revolution", "umdrehung"}},
       {ColumnRole::time,
        {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t", "elapsed", "seconds",
@@ -37,7 +37,7 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::reading,
        {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
         "meas",     "actual",    "act",        "ist",     "diff",       "difference", "result", "value",
-        "messwert", "wert",      "indication", "anzeige", "signal",     "output"}},
+        "messwert", "wert",      "indication", "anzeige", "signal",     "output",     "ind",    "indicated"}},
       {ColumnRole::position, {"pos",      "position", "target",    "tgt",   "nominal", "nom",   "soll",      "set",
                               "setpoint", "command",  "commanded", "load",  "last",    "ref",   "reference", "referenz",
                               "force",    "kraft",    "pressure",  "druck", "angle",   "winkel"}},
@@ -79,12 +79,14 @@ std::string ratio(const std::string& above, const std::string& below) {
 
 const std::vector<std::pair<std::vector<std::string_view>, double>>& direction_words() {
   static const std::vector<std::pair<std::vector<std::string_view>, double>> all{
-      {{"fwd", "forward", "forwards", "up", "+", "cw", "increasing", "out", "outbound", "pos", "positive", "vor",
-        "vorwärts", "hin", "auf", "1", "+1", "p", "plus"},
+      {{"fwd",  "forward",  "forwards",  "up",       "+",      "cw",      "increasing", "out",      "outbound",
+        "pos",  "positive", "vor",       "vorwärts", "hin",    "auf",     "1",          "+1",       "p",
+        "plus", "rising",   "ascending", "loading",  "upward", "upwards", "steigend",   "aufwärts", "belastung"},
        1},
-      {{"bwd",     "backward", "backwards", "bck",  "ccw", "decreasing", "back",     "return",
-        "inbound", "rev",      "reverse",   "down", "-",   "neg",        "negative", "zurück",
-        "rück",    "rueck",    "ab",        "-1",   "n",   "minus"},
+      {{"bwd",       "backward", "backwards", "bck",     "ccw",     "decreasing", "back",     "return",
+        "inbound",   "rev",      "reverse",   "down",    "-",       "neg",        "negative", "zurück",
+        "rück",      "rueck",    "ab",        "-1",      "n",       "minus",      "falling",  "descending",
+        "unloading", "downward", "downwards", "fallend", "abwärts", "entlastung"},
        -1}};
   return all;
 }

@@ -70,7 +70,7 @@ public:
     for (const auto& [path, text] : formulas_) {
       if (!p.what.starts_with(path + ": ") && !p.what.starts_with(path + ".unit: ")) continue;
       for (const auto& [name, column] : columns_)
-        if (mentions(text + intermediates_, name))
+        if (mentions(text + intermediates_, name) || path.ends_with("." + name))
           p.remedy += fmt::format("{}state the unit of the column '{}', without which {} is a plain number",
                                   p.remedy.empty() ? "" : "; or ", column, name);
       return;

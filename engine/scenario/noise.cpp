@@ -32,6 +32,7 @@ public:
     const Repeatability repeatability = read_repeatability(table_, card_, readouts_, context_);
     const std::vector<double> own = own_uncertainties();
     note_excess(step, repeatability, own);
+    refuse_expanded();
     double unused = 0;
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     const std::size_t before = context_.problems.size();
@@ -64,6 +65,15 @@ public:
   }
 
 private:
+  /// An expanded uncertainty has a coverage factor, which is a component's.
+  void refuse_expanded() {
+    for (const Member& m : table_.node().members)
+      if (m.key == "U")
+        table_.refuse_stray(
+            m, "an expanded uncertainty needs its coverage factor",
+            "write components = [{ U = \"...\", k = 2, per = \"reading\" }]; u is the standard uncertainty");
+  }
+
   std::string shown(double scatter) const { return shown_scatter(scatter, card_); }
   void note(const std::string& text) { context_.note(std::string(card_.name) + ": " + text); }
   /// Scale and degrees of freedom of the mean of a reading.

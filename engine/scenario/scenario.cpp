@@ -262,9 +262,11 @@ private:
     if (!table) return;
     for (const EffectCard* effect : catalogue_.effects) {
       const std::string name(effect->name);
+      const bool applies = !catalogue_.applies || catalogue_.applies(model, *effect);
+      if (!applies && !find_member(table->node(), name)) continue; // nor is it what was meant by another name
       auto own = table->table(name);
       if (!own) continue;
-      if (catalogue_.applies && !catalogue_.applies(model, *effect)) {
+      if (!applies) {
         own->refuse(fmt::format("{} cannot carry it", model.name),
                     fmt::format("it has no stage '{}'", gumshoe::name(effect->stage)));
         continue;

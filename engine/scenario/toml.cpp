@@ -141,6 +141,15 @@ private:
   std::vector<std::size_t> open_; ///< parts of the keys around this place
 };
 
+/// What the parser's words mean to whom TOML is new.
+std::string remedy_of(const std::string& what, const std::string& file) {
+  for (const char* ending : {".csv", ".tsv", ".txt"})
+    if (file.ends_with(ending))
+      return fmt::format("a scenario is expected here; gumshoe new --from {} writes one for a data file", file);
+  if (what.find("control character") != std::string::npos) return "is a closing quote missing?";
+  return "";
+}
+
 } // namespace
 
 Node parse_document(const std::string& text, const std::string& file) {
@@ -154,7 +163,7 @@ Node parse_document(const std::string& text, const std::string& file) {
     if (const std::size_t at = what.find(": "); what.starts_with("Error while parsing") && at != std::string::npos)
       what.erase(0, at + 2); // where it happened says the place already
     throw InputError(std::vector<Problem>{
-        {{file, static_cast<int>(place.line), static_cast<int>(place.column)}, std::move(what), "TOML", ""}});
+        {{file, static_cast<int>(place.line), static_cast<int>(place.column)}, what, "TOML", remedy_of(what, file)}});
   } catch (const ParserGaveUp&) {
     throw InputError(std::vector<Problem>{
         {{file, 0, 0}, "the file is not valid TOML", "the parser gave up", "is a quote or a bracket missing?"}});

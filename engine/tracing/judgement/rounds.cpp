@@ -345,7 +345,12 @@ private:
         return true;
       }
       if (instead.shape) {
-        add_shape(*instead.shape, instead.with_shape, found->finding.p_value);
+        const auto lasts = sought_.steps_last ? same_that_lasts(c_, *evidence_, *instead.shape) : std::nullopt;
+        const JointFit fit = lasts ? evidence_->with({evidence_->linear_term(*lasts)}) : JointFit();
+        if (lasts && fit.valid)
+          add_shape(*lasts, fit, found->finding.p_value);
+        else
+          add_shape(*instead.shape, instead.with_shape, found->finding.p_value);
         return true;
       }
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);

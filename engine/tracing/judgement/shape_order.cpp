@@ -77,29 +77,25 @@ bool of_one_block(const Candidate& a, const Observations& o) {
          (a.name.starts_with("step:") || a.rare());
 }
 
-/// The last block of those that are fitted says the same as a step that begins with it, and of aligned blocks any does.
-/// What changed is expected to stay so; held-out readings tell. There are more instants than blocks, so that the step
-/// need not pass by itself.
+/// Puts a step that lasts in the place of the same in one block.
 void settle_steps(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
-  const auto lasts = [&](std::size_t a) { return is_lasting_step(e.candidates()[a], c.observations); };
-  constexpr double rounding = 1e-3;
-  const auto same = [&, ratio = tried[0].ratio](const Trial& t) { return std::fabs(t.ratio - ratio) <= rounding; };
-  if (!steps_last) {
-    const auto block = std::ranges::find_if(
-        tried, [&](const Trial& t) { return of_one_block(e.candidates()[t.candidate], c.observations) && same(t); });
-    if (block == tried.end()) return;
-    std::rotate(tried.begin(), block, block + 1);
-    std::erase_if(tried, [&](const Trial& t) { return lasts(t.candidate) && same(t); });
+  if (steps_last) {
+    const auto lasts = same_that_lasts(c, e, tried[0].candidate);
+    if (!lasts) return;
+    Trial one = e.trial(*lasts);
+    if (!one.fit.valid) return;
+    std::erase_if(tried, [&](const Trial& t) { return t.candidate == *lasts; });
+    tried.insert(tried.begin(), std::move(one));
     return;
   }
-  if (!of_one_block(e.candidates()[tried[0].candidate], c.observations)) return;
-  for (std::size_t a = 0; a < e.candidates().size(); ++a)
-    if (lasts(a))
-      if (Trial one = e.trial(a); one.fit.valid && same(one)) {
-        std::erase_if(tried, [&](const Trial& t) { return t.candidate == a; });
-        tried.insert(tried.begin(), std::move(one));
-        return;
-      }
+  const auto block = std::ranges::find_if(tried, [&](const Trial& t) {
+    const auto lasts = same_that_lasts(c, e, t.candidate);
+    return lasts && (t.candidate == tried[0].candidate || *lasts == tried[0].candidate);
+  });
+  if (block == tried.end()) return;
+  const auto refuted = *same_that_lasts(c, e, block->candidate);
+  std::rotate(tried.begin(), block, block + 1);
+  std::erase_if(tried, [&](const Trial& t) { return t.candidate == refuted; });
 }
 
 void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
@@ -115,6 +111,14 @@ void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<
 bool is_lasting_step(const Candidate& a, const Observations& o) {
   return a.name.starts_with("step:") &&
          std::ranges::any_of(o.covariates, [&](const Covariate& x) { return x.course && x.name == a.depends_on[0]; });
+}
+
+std::optional<std::size_t> same_that_lasts(const TraceContext& c, const Evidence& e, std::size_t a) {
+  if (!of_one_block(e.candidates()[a], c.observations)) return std::nullopt;
+  constexpr double rounding = 1e-9;
+  for (std::size_t b = 0; b < e.candidates().size(); ++b)
+    if (is_lasting_step(e.candidates()[b], c.observations) && std::fabs(e.correlation(a, b)) > 1 - rounding) return b;
+  return std::nullopt;
 }
 
 void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {

@@ -19,6 +19,11 @@ void order_shapes(const TraceContext& context, const Evidence& evidence, std::ve
 /// A step in time, or in the order of measurement, which goes on beyond the readings.
 bool is_lasting_step(const Candidate& candidate, const Observations& observations);
 
+/// The step that lasts which the fitted readings cannot tell from a shape of one block, or of one pass: the last block
+/// says the same as a step that begins with it, and of aligned blocks any does. What changed is expected to stay so;
+/// held-out readings tell. There are more instants than blocks, so that the step need not pass by itself.
+std::optional<std::size_t> same_that_lasts(const TraceContext& context, const Evidence& evidence, std::size_t shape);
+
 /// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
 /// takes that of errors that are zero at either end.
 bool is_one_of_several_forms(const Evidence& evidence, std::size_t shape);

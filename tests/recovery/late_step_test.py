@@ -1,0 +1,98 @@
+"""What begins in the last of the readings that are fitted: a step that lasts, or one cycle that differs. They are the same
+there; held-out readings tell them apart. And a time that begins anew with every run is a condition, not a course.
+
+usage: late_step_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "cli")]
+
+import axis
+from program import gumshoe
+
+SIZE, LAST = 3.0, 5  # um; the noise is 1 um. Of six cycles the sixth is held out
+
+STARTS = """schema = 1
+title = "a spindle after its start"
+[model]
+name = "expression"
+[model.indications]
+z = "z0"
+[data]
+file = "r.csv"
+labels = { start = "start" }
+[data.units]
+t_min = "min"
+z_um = "um"
+[data.conditions]
+time = "t_min"
+speed = { column = "speed", unit = "1/min" }
+[quantities]
+z0 = { estimated = true, by.start = { "1" = "0 um", "2" = "0 um", "3" = "0 um", "4" = "0 um", "5" = "0 um", "6" = "0 um" } }
+[indications.z]
+readings = "z_um"
+[trace]
+blocks = "start"
+"""
+
+
+def traced(folder):
+    run = gumshoe("trace", "s.toml", "--out", "o.h5", "--json", "o.json", cwd=folder)
+    assert run.returncode == 0, run.stderr
+    return json.loads((folder / "o.json").read_text())
+
+
+class LateStep(unittest.TestCase):
+    def traced(self, seed, changed):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            axis.write(folder, "nothing", seed)
+            header, *rows = [line.split(",") for line in (folder / "r.csv").read_text().splitlines()]
+            for row in rows:
+                row[-1] = str(float(row[-1]) + SIZE * changed(int(row[0])))
+            (folder / "r.csv").write_text("".join(",".join(row) + "\n" for row in [header, *rows]))
+            return traced(folder)
+
+    def test_a_step_that_lasts(self):
+        for seed in range(5):
+            verdict = self.traced(seed, lambda cycle: cycle >= LAST)
+            self.assertEqual([f["described_by"] for f in verdict["findings"]], ["step:t after reading 72"], seed)
+            rms = verdict["rms"]
+            self.assertLess(rms["holdout_after"], 0.75 * rms["holdout_before"])  # sqrt(1 + 1/20) of sqrt(1 + 9) um, and chance
+            self.assertFalse(verdict["unconfirmed"], seed)
+
+    def test_one_cycle_that_differs(self):
+        for seed in range(5):
+            verdict = self.traced(seed, lambda cycle: cycle == LAST)
+            self.assertEqual([f["described_by"] for f in verdict["findings"]], [f"step:cycle {LAST}"], seed)
+            self.assertLess(verdict["rms"]["holdout_after"], 1.1 * verdict["rms"]["holdout_noise"] * 1.5)
+
+
+class TimeThatBeginsAnew(unittest.TestCase):
+    def test_a_wave_in_every_run_is_no_event(self):
+        """0.7 um with a period of 17 min after each of six starts, of which no reading of one start alone tells."""
+        for seed in range(3):
+            chance = random.Random(seed)
+            with tempfile.TemporaryDirectory() as name:
+                folder = pathlib.Path(name)
+                rows = ["start,t_min,speed,z_um"]
+                for start in range(1, 7):
+                    speed = 6000 if start % 2 else 9000
+                    rows += [f"{start},{t},{speed},{0.7 * math.sin(2 * math.pi * t / 17) + chance.gauss(0, 0.3):.3f}" for t in range(0, 61, 3)]
+                (folder / "r.csv").write_text("\n".join(rows) + "\n")
+                (folder / "s.toml").write_text(STARTS)
+                verdict = traced(folder)
+                self.assertEqual([f["depends_on"] for f in verdict["findings"]], [["time"]], seed)
+                self.assertRegex(verdict["findings"][0]["described_by"], "^(table|wave):time$")
+                self.assertLess(verdict["rms"]["holdout_after"], 0.75 * verdict["rms"]["holdout_before"])
+
+
+if __name__ == "__main__":
+    unittest.main()
