@@ -58,6 +58,7 @@ ExitCode analyse(const AnalyseOptions& o) {
   const store::Stored stored = store::open_result(o.file);
   refuse_unusable(stored, o.file);
   store::require_sound_samples(o.file);
+  if (o.scenario.empty()) require_scenario(stored.identity, o.file, ", or name it with --scenario");
   scenario::Scenario s = scenario::read(o.scenario.empty() ? stored.identity.scenario_file : o.scenario, catalogue(),
                                         {.external = stored.identity.external});
   s.run.samples = stored.identity.samples;

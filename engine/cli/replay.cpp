@@ -19,6 +19,7 @@ namespace gumshoe::cli {
 namespace {
 
 scenario::Scenario scenario_of(const store::Identity& identity, const std::string& result) {
+  require_scenario(identity, result);
   scenario::Scenario s = scenario::read(identity.scenario_file, catalogue(), {.external = identity.external});
   if (s.hash != identity.scenario_hash)
     throw InputError(result + ": " + identity.scenario_file + " has changed since this result was made",

@@ -1,6 +1,7 @@
 #include "cli/shards.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -141,6 +142,13 @@ void refuse_shard(const store::Identity& identity, const std::string& file) {
   if (identity.shard.empty()) return;
   throw InputError(file + ": the file holds a part of a run", "shard " + identity.shard,
                    "join all shards with gumshoe merge");
+}
+
+void require_scenario(const store::Identity& identity, const std::string& file, const std::string& or_else) {
+  if (std::filesystem::exists(identity.scenario_file)) return;
+  throw InputError(file + ": its scenario " + identity.scenario_file + " is not there",
+                   "the result names it as seen from the folder where it was made",
+                   "go to that folder, or bring the scenario and its data here" + or_else);
 }
 
 store::Identity require_finished(const std::string& file) {

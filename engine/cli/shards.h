@@ -37,6 +37,8 @@ void print_shard(const store::Identity& identity, const ShardPart& part, std::ui
 
 /// Throws InputError where a command needs a whole run.
 void refuse_shard(const store::Identity& identity, const std::string& file);
+/// Throws InputError if the scenario of a result is not where the result says, seen from the present folder.
+void require_scenario(const store::Identity& identity, const std::string& file, const std::string& or_else = "");
 
 /// What made a finished result. Throws InputError if it is a shard, or was interrupted.
 store::Identity require_finished(const std::string& file);

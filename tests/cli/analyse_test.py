@@ -35,6 +35,18 @@ class Analyse(InOneFolder):
         self.assertIsNone(complaint(run))
         self.assertIn(words, run.stderr)
 
+    def test_from_another_folder_the_scenario_is_not_found(self):
+        run = gumshoe("run", "plain.toml", "--out", "here.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        there = self.folder / "there"
+        there.mkdir()
+        for command, more in (("replay", ("--sample", 1)), ("analyse", ())):
+            with self.subTest(command):
+                self.refused("its scenario plain.toml is not there (the result names it as seen from the folder where it was made)",
+                             gumshoe(command, "../here.h5", *more, cwd=there))
+        run = gumshoe("analyse", "../here.h5", "--scenario", "../plain.toml", "--out", "again.h5", cwd=there)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_an_adaptive_run_keeps_its_record_and_all_studies_are_in_the_json(self):
         scenario = self.scenario(SCENARIO + "[run]\nadaptive = { rule = \"stein\", digits = 1 }\n" + STUDIES)
         result, again = self.folder / "adaptive.h5", self.folder / "adaptive_again.h5"

@@ -10,7 +10,7 @@ import unittest
 import h5py
 
 from lengths import K, Lengths
-from program import ROOT, gumshoe
+from program import ROOT, SCENARIO, gumshoe
 
 SAMPLES = 200_000
 
@@ -132,6 +132,11 @@ class Compare(Lengths):
         self.refused("different coverage probabilities", self.before, self.result("p99", p=0.99))
         other = self.result("other", change=lambda text: text.replace("y = ", "other = ", 1))
         self.refused("no measurand in common", self.before, other)
+        errors = self.folder / "virtual.toml"
+        errors.write_text(SCENARIO.replace('name = "rod_gauging"', 'name = "rod_gauging"\nmethod = "virtual_experiment"'))
+        virtual = self.folder / "virtual.h5"
+        self.assertEqual(gumshoe("run", errors, "--samples", 1000, "--out", virtual).returncode, 0)
+        self.refused("one of the results holds errors of a virtual experiment, the other values", self.before, virtual)
         self.refused("y: the results have different dimensions", self.before, self.result("ratio", formula="reading / reference"))
         self.refused("before.toml", self.folder / "before.toml", self.after)  # not a result
         volume = self.folder / "volume.h5"
