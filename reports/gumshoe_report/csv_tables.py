@@ -109,6 +109,8 @@ def trace(t):
     """Findings, ranking, detection limits and every residual with its labels and conditions."""
     if t is None:
         return {}
+    # What the hold-out blocks rejected is not compensated for.
+    rejected = lambda f: t.vetoed and f.kind == "not_in_catalogue"
     beside = {**t.data.labels, **t.data.columns, **t.data.conditions}
     def heads(name, column):
         unit = getattr(column, "display_units", "1")
@@ -125,7 +127,8 @@ def trace(t):
     return {"findings": [{"finding": f.name, "kind": f.kind, "p_value": f.p_value, "member": q.member, "quantity": q.name,
                           "labels": q.labels, "unit": q.display_units, **size(q), "suggestion": f.suggestion}
                          for f in t.findings for q in f.quantities],
-            "compensation": [{"finding": k + 1, **one} for k, f in enumerate(t.findings) for table in f.tables for one in compensation.lines(table)],
+            "compensation": [{"finding": k + 1, **one} for k, f in enumerate(t.findings) if not rejected(f)
+                             for table in f.tables for one in compensation.lines(table)],
             "candidates": [line("trace/candidates", c) for c in t.candidates],
             "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
             "of_indications": [line("trace/of_indications", e) for e in t.of_indications],

@@ -7,22 +7,32 @@ POWERS = {"2": "square", "3": "cube"}
 
 
 def plain(name):
-    return name.replace("_", " ")
+    """A name of a quantity, effect or label; not a label's value, which stays as it is marked on the part."""
+    name, bracket, labels = name.partition("[")
+    return name.replace("_", " ") + bracket + of_label(labels)
+
+
+def of_label(text):
+    """A label with its value, "tool_id T_2", and what may follow."""
+    label, space, value = text.partition(" ")
+    return label.replace("_", " ") + space + value
 
 
 def of_quantity(rest):
     """rod_length[rod 2]: length of rod 2."""
     quantity, _, label = rest.partition("[")
-    label = label.rstrip("]")
-    words = plain(quantity)
+    words, label = plain(quantity), label.removesuffix("]")
     if not label:
         return words
-    kind = label.split(" ")[0]
-    return f"{words.removeprefix(kind + ' ')} of {label}"
+    return f"{words.removeprefix(plain(label.partition(' ')[0]) + ' ')} of {of_label(label)}"
 
 
 def by(rest):
     return joined([plain(name) for name in rest.split("*")])
+
+
+def scatter(rest):
+    return "larger noise of single readings" if rest == "reading" else f"scatter by {joined([plain(name) for name in rest.split(',')])}"
 
 
 def polynomial(rest):
@@ -38,15 +48,15 @@ def harmonic(rest):
 
 
 FORMS = {"declared": lambda rest: f"{of_quantity(rest)} (declared)",
-         "scatter": lambda rest: f"scatter by {joined([plain(name) for name in rest.split(',')])}",
+         "scatter": scatter,
          "table": lambda rest: f"any value by {by(rest)}",
          "omnibus": lambda rest: f"any smooth dependence on {by(rest)}",
-         "product": lambda rest: f"product of {by(rest)}",
+         "product": lambda rest: f"product of {joined([of_label(part) for part in rest.split('*', 1)])}",
          "harmonic": harmonic, "polynomial": polynomial,
          "hysteresis": lambda rest: f"direction of motion of {plain(rest)}",
          "wave": lambda rest: f"a wave along {plain(rest)}",
          "drift": lambda rest: f"drift that levels off in {plain(rest)}",
-         "step": lambda rest: f"offset of {plain(rest)}"}
+         "step": lambda rest: f"offset of {of_label(rest)}"}
 
 
 def readable(name, shape=""):

@@ -114,7 +114,7 @@ def spatial(r):
     contour, volume = spatial_figures.contour(r, shown), spatial_figures.volume(r, shown)
     found = [(contour, "The commanded contour, dashed, and the measured one with its deviations magnified. Pale: symmetric coverage intervals.")] if contour else []
     if volume:
-        found.append((volume[0], f"Standard uncertainty over the commanded points, in {volume[1]}."))
+        found.append((volume, "Standard uncertainty over the commanded points. Darker is larger; each measurand has its own scale."))
     return [(markupsafe.Markup(figure), caption) for figure, caption in found]
 
 
@@ -140,7 +140,7 @@ def contents(r):
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
         method=METHODS.get(r.method, r.method), samples=rounding.thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r, set().union(*(p.names for p in along))),
-        constants=[tables.constant_text(o) for o in r.outputs if o not in shown and not getattr(o, "diagnostic", 0)], numbered=tables.numbered(r.outputs),
+        constants=[tables.constant_text(o) for o in r.outputs if o not in shown and not getattr(o, "diagnostic", 0)], numbered=tables.numbered(r),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],
         printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
         readings=tables.readings(r))

@@ -48,18 +48,21 @@ def grid_of(r, outputs):
 
 
 def volume(r, outputs):
-    """u of every measurand over a grid of commanded points, a panel for each height; empty without such a grid."""
+    """u of every measurand over a grid of commanded points, a panel for each height; empty without such a grid.
+    Measurands differ in kind and size: each has its own unit and its own scale of colours."""
     found = [(name, grid) for name, group in measurands(r, outputs).items() if (grid := grid_of(r, group))][:PANELS]
     if not found:
         return ""
-    heights = sorted(found[0][1])[:PANELS]
+    columns = min(PANELS, max(len(grid) for _, grid in found))
     u = lambda o: o.standard_uncertainty * o.display_factor
-    most = max(u(o) for _, grid in found for cells in grid.values() for o in cells.values())
-    unit, factor = rounding.finer(next(iter(found[0][1][heights[0]].values())).display_units, most)
     colours = matplotlib.colormaps["Blues"]
-    figure, panels = plt.subplots(len(found), len(heights), figsize=(7.2, 7.2 / max(3, len(heights)) * len(found) * 0.95 + 0.4),
-                                  layout="constrained", squeeze=False, sharex=True, sharey=True)
+    figure, panels = plt.subplots(len(found), columns, figsize=(7.2, 7.2 / max(3, columns) * len(found) * 0.95 + 0.4),
+                                  layout="constrained", squeeze=False)
     for row, (name, grid) in zip(panels, found):
+        shown = [o for cells in grid.values() for o in cells.values()]
+        most = max(map(u, shown)) or 1
+        unit, factor = rounding.finer(shown[0].display_units, most)
+        heights = sorted(grid)[:columns]
         for axes, z in zip(row, heights):
             xs, ys = sorted({x for x, _ in grid[z]}), sorted({y for _, y in grid[z]})
             for (x, y), o in grid[z].items():
@@ -71,12 +74,15 @@ def volume(r, outputs):
             axes.set_xlim(-0.5, len(xs) - 0.5), axes.set_ylim(-0.5, len(ys) - 0.5)
             axes.set_xticks(range(len(xs)), [millimetres(x) for x in xs], fontsize=7)
             axes.set_yticks(range(len(ys)), [millimetres(y) for y in ys], fontsize=7)
-            axes.set_title(f"{name}, z {millimetres(z)} mm", loc="left", fontsize=8, color=INK)
-    for axes in panels[-1]:
-        axes.set_xlabel("x, mm")
-    for row in panels:
+            of = f"u of {name}" + (f" in {rounding.unit_text(unit)}" if rounding.unit_text(unit) else "")
+            axes.set_title(f"{of}, z {millimetres(z)} mm", loc="left", fontsize=8, color=INK)
+        for axes in row[len(heights):]:
+            axes.set_visible(False)
         row[0].set_ylabel("y, mm")
-    return svg(figure, "volume", f"Standard uncertainty over the commanded points, in {rounding.unit_text(unit)}"), rounding.unit_text(unit)
+    for column in panels.T:
+        lowest = [axes for axes in column if axes.get_visible()][-1]
+        lowest.set_xlabel("x, mm")
+    return svg(figure, "volume", "Standard uncertainty over the commanded points")
 
 
 def contours(r, outputs):

@@ -84,10 +84,10 @@ def diagnostic_text(o):
     return f"{o.name} {with_unit(ends, o.display_units)}"
 
 
-def numbered(outputs):
+def numbered(r):
     """Outputs like length_1, length_2, seen_1, seen_2 as one table, a row per number; None if there are none such."""
     found = {}
-    for o in outputs:
+    for o in r.outputs:
         match = re.fullmatch(r"(.+)_(\d+)", o.name)
         if match:
             found.setdefault(match[1], {})[int(match[2])] = o
@@ -95,13 +95,14 @@ def numbered(outputs):
     stems = {name: rows for name, rows in found.items() if sorted(rows) == numbers}
     if len(numbers) < 2 or len(stems) < 2:
         return None
+    flags = r.model == "tool_length" and "seen" in stems  # an expression may call anything so
     def cell(o):
         u = o.standard_uncertainty
         if constant(o):
             return fixed(point(o, o.estimate), None), ""
         return fixed(point(o, o.estimate), places_of(o)), significant(spread(o, u))
     return types.SimpleNamespace(
-        hidden="seen" in stems and any(o.symmetric_low < 1 for o in stems["seen"].values()),
+        flags=flags, hidden=flags and any(o.symmetric_low < 1 for o in stems["seen"].values()),
         heads=[(name, unit_text(rows[numbers[0]].display_units), not all(map(constant, rows.values())))
                for name, rows in stems.items()],
         rows=[(k, [(*cell(rows[k]), not all(map(constant, rows.values()))) for rows in stems.values()]) for k in numbers])

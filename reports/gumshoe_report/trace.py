@@ -11,8 +11,9 @@ from .tables import budget_row, point, spread
 LISTED = 12  # candidates and detection limits on the page; the CSV tables have all
 FAMILIES = {"effect": "effect", "declared": "declared quantity", "stated": "stated in the scenario",
             "shape": "generic shape", "omnibus": "omnibus test", "scatter": "scatter"}
-KINDS = {"named": "one effect", "class": "effects that these data cannot distinguish", "scatter": "scatter by label",
-         "not_in_catalogue": "not in the catalogue"}
+CHOSEN = ("named", "in the class", "describes", "explains")  # how the outcome of a candidate that was chosen begins
+AS_WELL = " fits better, as chance could have it"  # how the remark on a shape ends to which a known effect was preferred
+LEAST = 0.001  # the smallest probability that is printed: tails of an approximation are known no better
 
 
 def in_words(name):
@@ -69,9 +70,15 @@ class Trace:
         tried = {c.name for c in t.candidates} | {m for f in t.findings for m in f.members}
         known = [re.escape(name) for name in sorted(tried, key=len, reverse=True) if ":" in name]
         self.names = re.compile("|".join([*known, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave):[\w*^/]+"]))
-        self.found = bool(t.findings)
+        # A shape that the hold-out blocks rejected is reported and not added; scatter outlives their veto.
+        self.rejected = [f for f in t.findings if self.is_rejected(f)]
+        self.standing = [f for f in t.findings if not self.is_rejected(f)]
+        self.found = bool(self.standing)
         self.added = any(r.after != r.before for r in t.residuals if math.isfinite(r.before))
         self.apart = any(r.final for r in t.residuals)
+
+    def is_rejected(self, f):
+        return bool(self.t.vetoed) and f.kind == "not_in_catalogue"
 
     def in_remark(self, text):
         """Candidates by their readable names."""
@@ -100,6 +107,8 @@ class Trace:
         if not math.isfinite(value):
             return "not known"
         least = 1 / (self.t.draws + 1)
+        if value >= 0.995:
+            return "> 0.99"
         return ("≤ " if value <= 1.001 * least else "= ") + significant(value, 2 if value > 0.01 else 1)
 
     def exceeds(self):
@@ -114,11 +123,12 @@ class Trace:
 
     def found_headline(self):
         t = self.t
-        if t.findings:
-            names = [f"one of {len(f.members)} effects" if f.kind == "class" else
-                     UNKNOWN if f.kind == "not_in_catalogue" else in_words(f.name)
-                     for f in t.findings]
-            return f"Found: {joined(counted(names))}"
+        said = lambda findings: joined(counted([f"one of {len(f.members)} effects" if f.kind == "class" else
+                                                UNKNOWN if f.kind == "not_in_catalogue" else in_words(f.name) for f in findings]))
+        if self.standing:
+            return f"Found: {said(self.standing)}" + (f"; withdrawn: {said(self.rejected)}" if self.rejected else "")
+        if self.rejected:
+            return f"Found, and withdrawn: {said(self.rejected)}"
         if t.verdict == "insufficient_data":
             return "These data cannot decide"
         if t.vetoed:
@@ -137,10 +147,7 @@ class Trace:
         chance = f"the false-alarm rate of the search was limited to {significant(100 * t.alpha, 1)}{SPACE}%"
         if t.vetoed:
             return (f"The search found something (p {self.p(t.p_anything)}), but it does not improve the prediction of the "
-                    "hold-out blocks. Nothing is added to the model.")
-        if t.findings:
-            return (f"{t.tried} candidates were tried; {chance}. For the whole search, "
-                    f"p {self.p(t.p_anything)}.")
+                    f"hold-out blocks. {'It is not' if self.standing else 'Nothing is'} added to the model.")
         return (f"{t.tried} candidates were tried; {chance}. For the whole search, p {self.p(t.p_anything)}.")
 
     def key_figures(self):
@@ -194,6 +201,8 @@ class Trace:
 
     def to_do(self, f):
         """What a machinist does about a finding, and by how much."""
+        if self.is_rejected(f):
+            return "Do not correct for it: the hold-out blocks reject it. Measure more blocks to decide."
         if f.kind == "named" and f.quantities:
             q = self.sizes(f)[0]
             size = f"{q.name} {with_unit(q.value, q.unit)}, 95{SPACE}% interval [{q.low}, {q.high}]"
@@ -206,6 +215,8 @@ class Trace:
             return f"Correct for it: {size}."
         if f.kind == "class":
             return f"Measure next: {f.suggestion}." if f.suggestion else "Other conditions must be varied to distinguish the causes."
+        if f.kind == "scatter" and len(f.members) > 1:
+            return "Until further readings distinguish the causes, include it in the uncertainty budget."
         if f.kind == "scatter":
             return "It cannot be corrected for; include it in the uncertainty budget."
         if f.tables and getattr(self.t, "unconfirmed", 0):
@@ -223,16 +234,39 @@ class Trace:
             return "An unknown effect" + (f": {names.readable(f.described_by)}" if f.described_by else "")
         return f"One of {len(f.members)} effects" if f.kind == "class" else capitalised(in_words(f.name))
 
+    def as_well(self, f):
+        """The remark on an unknown effect that fits better than a known one; empty if there is none."""
+        return next((x for x in f.remarks if f.kind in ("named", "class") and x.endswith(AS_WELL)), "")
+
+    def preferred(self, f):
+        """How a finding was preferred to its rivals, in sentences that hold for every way in which it was chosen."""
+        better = f" {capitalised(self.in_remark(self.as_well(f)))}; a known effect is preferred." if self.as_well(f) else ""
+        if f.kind == "class":
+            return (f"These data cannot distinguish these {len(f.members)} effects: each explains the residuals as well as the best "
+                    f"of them, or less well by no more than chance gives.{better}")
+        if f.kind == "named":
+            return f"The search preferred it to all other candidates; “What was tried” gives the reasons.{better}"
+        if f.kind == "scatter":
+            return ("This error has no fixed size: it takes a new value each time." if len(f.members) < 2 else
+                    f"The readings scatter, or one of these is there: {joined([names.readable(m) for m in f.members[1:]])}. "
+                    "These data cannot distinguish them.")
+        return "No candidate explains this structure."
+
+    def dependence(self, f):
+        """What a finding depends on; noise of single readings on nothing."""
+        on = [] if f.kind == "scatter" and f.depends_on == ["reading"] else [names.plain(name) for name in f.depends_on]
+        return joined(on) if on else ""
+
     def findings(self):
         for f in self.t.findings:
             # Sizes found together, and scatter, are not corrected for having been the largest.
             alone = len({q.member for q in f.quantities}) == len(f.quantities)
             yield types.SimpleNamespace(
-                corrected=f.kind in ("named", "class") and alone, kind=f.kind, title=self.title(f), what=KINDS[f.kind],
-                members=[(names.readable(m), m) for m in f.members], to_do=self.to_do(f),
-                cells=f.tables, tables=[compensation.table(table) for table in f.tables],
-                p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
-                suggestion=f.suggestion, remarks=[self.in_remark(x) for x in f.remarks if x != f"described by {f.described_by}"], sizes=self.sizes(f),
+                corrected=f.kind in ("named", "class") and alone, kind=f.kind, title=self.title(f),
+                rejected=self.is_rejected(f), preferred=self.preferred(f), members=[(names.readable(m), m) for m in f.members], to_do=self.to_do(f),
+                cells=f.tables, tables=[] if self.is_rejected(f) else [compensation.table(table) for table in f.tables],
+                p=self.p(f.p_value), depends_on=self.dependence(f), suggestion=f.suggestion,
+                remarks=[self.in_remark(x) for x in f.remarks if x not in (f"described by {f.described_by}", self.as_well(f))], sizes=self.sizes(f),
                 removed=of_all(f.removed_share) if f.removed_share > 0 else "", curves=f.curves)
 
     def before_and_after(self):
@@ -272,7 +306,7 @@ class Trace:
                 said=names.readable(c.name, c.shape), name=c.name, shape=c.shape, family=FAMILIES.get(c.family, c.family), parameters=c.parameters,
                 statistic=significant(c.statistic, 3), width=100 * c.statistic / top if top > 0 and c.statistic > 0 else 0,
                 p=significant(c.p_single), left=percent(c.identifiable), absorbed=c.absorbed_by,
-                correlation=fixed(c.correlation, 2), outcome=self.in_remark(c.outcome), kept=not c.outcome.startswith("refused"))
+                correlation=fixed(c.correlation, 2), outcome=self.in_remark(c.outcome), kept=c.outcome.startswith(CHOSEN))
 
     def rounds(self):
         """Every round of `--loop` with what it added and its ranking; none if there was one round."""
@@ -304,13 +338,15 @@ class Trace:
             text.append("The noise is taken as declared.")
         else:
             text.append(f"The residuals scatter {significant(n.scale, 3)} times as much as declared.")
-        if n.declared and math.isfinite(n.chi_squared_p):
-            text.append("Under the declared uncertainties residuals of this size have a probability of "
-                        f"{significant(n.chi_squared_p)} (chi-squared test).")
+        if n.declared and n.chi_squared_p < 1:  # 1: not judged
+            p = n.chi_squared_p
+            size = f"less than {LEAST:g}" if p < LEAST else f"more than {1 - LEAST:g}" if p > 1 - LEAST else significant(p)
+            text.append(f"Under the declared uncertainties, residuals as large as those before any finding have a probability of {size} "
+                        "(a lognormal distribution, fitted to the size of the noise in simulated data).")
         if n.correlation:
             text.append(f"Successive readings have a correlation of {fixed(n.correlation, 2)}.")
         if n.scatter:
-            text.append(f"In addition there is scatter by {joined([s.strip() for s in n.scatter.split(',')])}, "
+            text.append(f"In addition there is scatter by {joined([names.plain(s.strip()) for s in n.scatter.split(',')])}, "
                         f"standard deviation {self.size(n.scatter_u)}.")
         r = self.t.rms
         if math.isfinite(r.replicate_floor):

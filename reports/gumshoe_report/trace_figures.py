@@ -42,11 +42,28 @@ def scale(rows):
 
 
 def limits(values):
-    """One axis for both sides: their 99.5 % with room."""
+    """End of one axis for both sides, with room: the largest residual, or 1.6 times the 98 % quantile if that is less, so
+    that one bad reading does not hide all others."""
     both = np.abs(np.concatenate(list(values.values())))
     both = both[np.isfinite(both)]
     top = min(float(both.max()), 1.6 * float(np.quantile(both, 0.98))) if len(both) else 1
     return 1.12 * (top or 1)
+
+
+def mark_beyond(axes, x, y, top):
+    """Triangles at the edge for residuals, or means of them, beyond the axis."""
+    for side, marker in ((1, "^"), (-1, "v")):
+        beyond = side * y > top
+        axes.plot(x[beyond], np.full(beyond.sum(), side * 0.965 * top), marker, color=INK, markersize=4.5, markeredgewidth=0, zorder=5)
+
+
+def marks(rows):
+    """Whether there are outliers within the axis, and residuals beyond it."""
+    rows, values = scored(rows)
+    top = limits(values)
+    outlier = np.array([r.weight < 0.5 for r in rows])
+    return (any((outlier & (np.abs(v) <= top)).any() for v in values.values()),
+            any((np.abs(v) > top).any() for v in values.values()))
 
 
 def band(axes, rows, factor, x):
@@ -92,8 +109,9 @@ def in_order(rows, name):
         outlier = np.array([r.weight < 0.5 for r in rows])
         axes.plot(x[~outlier], values[side][~outlier], "o", color=colour, markersize=size, markeredgewidth=0, alpha=0.75,
                   rasterized=len(rows) > MANY)
-        if outlier.any():
-            axes.plot(x[outlier], np.clip(values[side][outlier], -top, top), "x", color=INK, markersize=4.5)
+        inside = outlier & (np.abs(values[side]) <= top)
+        axes.plot(x[inside], values[side][inside], "x", color=INK, markersize=4.5)
+        mark_beyond(axes, x, values[side], top)
         axes.set_ylim(-top, top)
         axes.yaxis.set_major_locator(MaxNLocator(5))
         axes.set_ylabel(axis_label(side if len(shown) > 1 else "residual", unit))
@@ -137,6 +155,7 @@ def points(axes, x, y, final, colour):
     else:
         axes.xaxis.set_major_locator(MaxNLocator(7))
     axes.grid(axis="y", **GRID)
+    return centre, mean
 
 
 def abscissa(rows, by_reading):
@@ -165,7 +184,9 @@ def against(rows, columns, name):
     for axes, ((title, x_unit, by_reading, chosen), (side, colour)) in zip(grid.flat, panels):
         x = abscissa(rows, by_reading)
         band(axes, rows, factor, x.values)
-        points(axes, x, values[side] * factor, final, colour)
+        centre, mean = points(axes, x, values[side] * factor, final, colour)
+        mark_beyond(axes, x.jittered, values[side] * factor, top)
+        mark_beyond(axes, centre, mean, top)
         axes.set_ylim(-top, top)
         axes.set_xlabel(axis_label(title, x_unit), fontweight="bold" if chosen else "normal")
     for axes in grid.flat[len(panels):]:

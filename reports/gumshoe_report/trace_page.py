@@ -15,6 +15,7 @@ def residual_figures(t, k, indication):
     rows = [r for r in t.residuals if r.indication == indication]
     if sum(math.isfinite(r.before) for r in rows) < 2:
         return None
+    crosses, triangles = trace_figures.marks(rows)
     varying = trace.columns(t)
     labels = trace.labels(t)
     drawings = {"order": trace_figures.in_order(rows, f"o{k}"),
@@ -23,7 +24,7 @@ def residual_figures(t, k, indication):
     return types.SimpleNamespace(
         indication=indication, left_out=[name for name, *_ in varying[DRAWN:]], final=any(r.final for r in rows),
         unscored=sum(not math.isfinite(r.before) for r in rows), several=len(varying) > 1,
-        dependent=any(chosen for *_, chosen in varying), outliers=any(r.weight < 0.5 for r in rows),
+        dependent=any(chosen for *_, chosen in varying), outliers=crosses, beyond=triangles,
         **{name: markupsafe.Markup(drawing) for name, drawing in drawings.items()})
 
 

@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+import types
 import unittest
 
 import h5py
@@ -18,7 +19,7 @@ from program import GUMSHOE, ROOT, InOneFolder
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, CONTRAST, Resources, browser, filled_pages, measured
-from gumshoe_report import page
+from gumshoe_report import page, tables
 from sealed import changed
 
 
@@ -229,6 +230,16 @@ class Curve(InOneFolder):
             length = float(self.summary[f"flute_length_{number}"]["estimate"])
             self.assertAlmostEqual(float(values[0].replace("\u2212", "-")), length, delta=1e-4)
             self.assertEqual(float(values[2]), float(self.summary[f"seen_{number}"]["estimate"]))
+
+    def test_only_flutes_are_hidden(self):
+        """An expression may call its measurands seen_1 and length_1, too."""
+        output = lambda name, value: types.SimpleNamespace(name=name, estimate=value, standard_uncertainty=0.1, symmetric_low=value - 0.2,
+                                                           symmetric_high=value + 0.2, shortest_low=value, shortest_high=value,
+                                                           display_units="1", display_factor=1, display_offset=0)
+        outputs = [output(f"{stem}_{k}", 0.5) for stem in ("seen", "length") for k in (1, 2)]
+        for model, hidden in (("tool_length", True), ("expression", False)):
+            found = tables.numbered(types.SimpleNamespace(model=model, outputs=outputs))
+            self.assertEqual((bool(found.hidden), bool(found.flags), len(found.rows)), (hidden, hidden, 2))
 
 
 class Question(unittest.TestCase):

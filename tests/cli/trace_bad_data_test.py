@@ -30,8 +30,8 @@ TRACE = '[trace]\nblocks = "setup"\ndraws = 99'
 FEEDS = (20, 200, 500, 1000) * 3
 
 
-def rows(setups=range(1, 9), feeds=FEEDS, delay=0.5, noise=5e-4):
-    chance = random.Random(1)
+def rows(setups=range(1, 9), feeds=FEEDS, delay=0.5, noise=5e-4, seed=1):
+    chance = random.Random(seed)
     out = []
     for setup in setups:
         constant = -360 + chance.gauss(0, 0.01)
@@ -113,11 +113,20 @@ class BadData(InFolder):
             self.stated(said, "do not scatter")
 
     def test_readings_in_wide_steps(self):
-        # A readout in steps of 10 um, noise of half a micrometre: nearly all are equal within a set-up.
-        data = [[s, r, f, f"{round(float(z), 2):.2f}"] for s, r, f, z in rows(delay=0)]
+        """A readout in steps of 10 um, noise of half a micrometre, and no effect: nearly all readings are equal within a set-up, and
+        a few are off by one step. A cause is never named. Declared as 0.5 um, the noise of those few is larger than declared, and
+        saying so is right. Anything else found is a false alarm, of 5 %: more than three in 12 have a chance of 0.2 %."""
         for noise in (NOISE, ""):
-            self.assertIn(self.verdict(data, noise=noise)["verdict"],
-                          ("nothing_found", "insufficient_data", "scatter", "not_in_catalogue", "anomalous_block"))
+            alarms = []
+            for seed in range(1, 13):
+                data = [[s, r, f, f"{round(float(z), 2):.2f}"] for s, r, f, z in rows(delay=0, seed=seed)]
+                said = self.verdict(data, noise=noise)
+                self.assertFalse({f["kind"] for f in said["findings"]} & {"named", "class"}, (noise, seed))
+                self.assertIn(said["verdict"], ("nothing_found", "scatter", "not_in_catalogue", "lack_of_fit", "anomalous_block"))
+                right = said["verdict"] == "nothing_found" or (noise and [f["members"] for f in said["findings"]] == [["scatter:reading"]])
+                if not right:
+                    alarms.append((seed, said["verdict"]))
+            self.assertLessEqual(len(alarms), 3, (noise, alarms))
 
     def test_without_noise_the_effect_is_exact(self):
         for noise in (NOISE, ""):

@@ -22,7 +22,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
-from gumshoe_report import names, read, trace, trace_figures
+from gumshoe_report import csv_tables, names, page, read, trace, trace_figures
 
 KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "lack_of_fit",
          "insufficient_data")
@@ -229,6 +229,74 @@ class Page(Made):
             t.unconfirmed = 1
             self.assertRegex(trace.Trace(t).to_do(t.findings[0]), "^Measure another block before you correct (for it|by the table)")
 
+    def test_what_the_held_out_readings_reject_is_not_called_found(self):
+        """The page of a rejected shape says so wherever it speaks of it, and offers no correction."""
+        r = read.result(self.file("not_in_catalogue"))
+        r.trace.vetoed = 1
+        words = words_of(page.render(r))
+        self.assertIn(" Found, and withdrawn: an unknown effect", words)
+        self.assertIn("Do not correct for it: the hold-out blocks reject it", words)
+        self.assertNotRegex(words, "Found: |Correct by|Table of compensation|Add the correction|left out and all else is fitted")
+        self.assertEqual(csv_tables.trace(r.trace)["compensation"], [])
+        # Scatter outlives the veto.
+        t = r.trace
+        t.findings = read.result(self.file("scatter")).trace.findings + t.findings
+        words = trace.Trace(t)
+        self.assertEqual(words.found_headline(), "Found: scatter by rod and setup; withdrawn: an unknown effect")
+        self.assertRegex(words.to_do(t.findings[0]), "include it in the uncertainty budget")
+        self.assertRegex(words.explanation(), r"It is not added to the model\.$")
+
+    def test_how_a_finding_was_preferred(self):
+        """A shape may fit better, and members of a class may lag: neither is denied."""
+        for kind in ("named", "class"):
+            r = read.result(self.file(kind))
+            f, = r.trace.findings
+            f.remarks = [*f.remarks, "polynomial:feed^2 with zero in the middle fits better, as chance could have it"]
+            words = words_of(page.render(r))
+            said = "Square of feed with zero in the middle fits better, as chance could have it; a known effect is preferred."
+            self.assertEqual(words.count(said), 1)
+            self.assertEqual(words.count("as chance could have it"), 1)
+            self.assertNotRegex(words, "better than every rival|equally well")
+        self.assertIn("The search preferred it to all other candidates", words_of(self.pages["named"]))
+        self.assertIn("or less well by no more than chance gives", words_of(self.pages["class"]))
+
+    def test_the_size_of_the_noise_is_bounded(self):
+        t = read.result(self.file("named")).trace
+        for p, said in ((1.9e-258, "of less than 0.001 "), (0.0123, "of 0.012 "), (0.99999, "of more than 0.999 ")):
+            t.noise.chi_squared_p = p
+            text = " ".join(trace.Trace(t).noise())
+            self.assertIn(said, text)
+            self.assertIn("lognormal", text)
+            self.assertNotIn("chi-squared", text)
+        t.noise.chi_squared_p = 1  # not judged
+        self.assertNotIn("probability", " ".join(trace.Trace(t).noise()))
+        self.assertEqual(trace.Trace(t).p(1.0), "> 0.99")
+
+    def test_the_hold_out_is_not_said_to_be_used_once(self):
+        """After a rejection, and in each further round, the same blocks judge again."""
+        for page_ in self.pages.values():
+            self.assertNotIn("only once", page_)
+        self.assertIn("the same blocks judge what is left", self.pages["named"])
+
+    def test_residuals_beyond_the_axis_are_marked(self):
+        r = read.result(self.file("named"))
+        rows = [row for row in r.trace.residuals if math.isfinite(row.before)]
+        self.assertNotIn("Triangles", words_of(page.render(r)))
+        rows[5].before, rows[9].before, rows[9].weight = 1.0, -1.0, 0.1  # m
+        drawn = []
+        with unittest.mock.patch.object(trace_figures, "svg", lambda figure, *_: drawn.append(figure) or ""):
+            trace_figures.in_order(rows, "o")
+            trace_figures.against(rows, trace.columns(r.trace), "a")
+            trace_figures.by_label(rows, trace.labels(r.trace), "setup", "l")
+        for figure in drawn[:2]:
+            axes = figure.axes[0]  # before
+            for marker in "^v":
+                self.assertTrue(any(line.get_marker() == marker and len(line.get_xdata()) for line in axes.lines), marker)
+        for axes in drawn[2].axes:  # every residual within
+            low, high = axes.get_ylim()
+            self.assertTrue(all(low <= y <= high for line in axes.lines for y in line.get_ydata()))
+        self.assertEqual(words_of(page.render(r)).count("Triangles: "), 2)
+
     def test_sizes_are_rounded_by_their_uncertainty(self):
         self.assertRegex(words_of(self.pages["named"]), r"delay ?trigger_latency\.delay ?1\.520 ?0\.041 ?\[1\.430, 1\.610\] ?ms")
         self.assertRegex(words_of(self.pages["class"]), r"expansion ?rod_expansion\.expansion ?11\.2 ?1\.1 ?\[8\.9, 13\.5\] ?µm/m/K")
@@ -236,7 +304,7 @@ class Page(Made):
     def test_a_class_comes_with_what_would_split_it(self):
         text = words_of(self.pages["class"])
         self.assertIn("Measure next: let the spindle rest for an hour", text)
-        self.assertIn("these data cannot distinguish them", text)
+        self.assertIn("These data cannot distinguish these 2 effects", text)
 
     def test_what_was_refused_says_why(self):
         text = words_of(self.pages["named"])
@@ -338,6 +406,20 @@ class Text(unittest.TestCase):
 
 
 class Words(unittest.TestCase):
+    def test_values_of_labels_stay_as_they_are(self):
+        for name, said in (("step:tool_id T_2", "offset of tool id T_2"), ("step:tool_id T_2 with direction 1", "offset of tool id T_2 with direction 1"),
+                           ("product:rail_position*tool_id T_2", "product of rail position and tool id T_2"),
+                           ("product:x*box a_b*c", "product of x and box a_b*c"),
+                           ("declared:rod_length[rod R_2]", "length of rod R_2 (declared)"),
+                           ("declared:tool_id_offset[tool_id T_2]", "offset of tool id T_2 (declared)")):
+            self.assertEqual(names.readable(name), said)
+        self.assertEqual(names.plain("rod_length[tool_id T_2]"), "rod length[tool id T_2]")
+
+    def test_noise_of_single_readings_is_no_label(self):
+        self.assertEqual(names.readable("scatter:reading"), "larger noise of single readings")
+        t = types.SimpleNamespace(kind="scatter", depends_on=["reading"])
+        self.assertEqual(trace.Trace.dependence(None, t), "")
+
     def test_names_as_one_says_them(self):
         for name, said in (("trigger_latency", "trigger latency"), ("scatter:rod,setup", "scatter by rod and setup"),
                            ("declared:rod_length[rod 2]", "length of rod 2 is not what was declared"),

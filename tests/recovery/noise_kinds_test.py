@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -118,9 +119,15 @@ class CoarseDisplay(Noise):
         start = np.repeat([0, 866.1, 1190.5, 8656, 8990, 9328.1], 18)
         self.write(MACHINE_AXIS, run=np.arange(n) // 18 + 1, direction=np.where(np.arange(n) % 18 < 9, 1, -1), x=x,
                    t=start + 15 * (np.arange(n) % 18), d=list("".join(read)))
-        for finding in self.trace("s.toml")["findings"]:
+        found = self.trace("s.toml")
+        for finding in found["findings"]:
+            self.assertNotIn("axis_reversal", finding["members"])
             for size in finding["quantities"]:
                 self.assertGreater(abs(size["value"]), 1.96 * size["u"], finding)
+        with h5py.File(self.folder / "o.h5") as file:
+            candidates = file["trace/candidates"]
+            outcomes = {name.decode(): why.decode() for name, why in zip(candidates["name"], candidates["outcome"], strict=True)}
+        self.assertEqual(outcomes["axis_reversal"], "refused: by the whole model it explains little of what its signature does")
 
     def test_a_few_readings_off_by_one_step_make_no_block_differ(self):
         """Five of a hundred are off: in which cycles is chance. Of thirty such sets a third had a block that differed."""
