@@ -316,7 +316,7 @@ std::vector<Component> read_components(Table& table, const std::string& si_unit,
     component.refuse_unknown();
     if (!uncertainty) continue;
     if (mean_counts) value = uncertainty->value;
-    // Of an earlier result without uncertainty its estimate is left, a deviation like those of the others.
+    // The estimate of an earlier result without uncertainty remains: a deviation, as with the other components.
     if (uncertainty->exact && component.has("from")) value += uncertainty->value - form.value.value_or(0);
     uncertainty->component.name = name;
     if (!uncertainty->exact) out.push_back(std::move(uncertainty->component));

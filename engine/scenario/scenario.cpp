@@ -300,7 +300,7 @@ private:
     refuse(model.conditions, {"reading", "label", "repeats"});
   }
 
-  /// What an effect's size is called, in place of the effect.
+  /// Refuses the name of a size where that of its effect is expected.
   void refuse_names_of_sizes(Table& table, const ModelCard& model) {
     for (const Member& m : table.node().members) {
       std::vector<std::string_view> effects;

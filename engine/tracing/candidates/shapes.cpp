@@ -242,7 +242,10 @@ private:
   }
 
   void in_group(const Covariate& c, const Grouping& g, std::size_t i) {
-    const Vector x = plain(o_, c) / std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
+    // The zero of an absolute temperature is far away: about the middle of what was met.
+    const Vector x = c.si_unit == "K"
+                         ? scaled(o_, c)
+                         : plain(o_, c) / std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
     in_group(x, c, g, i, "product:" + c.name + "*" + g.groups[i]);
   }
 
@@ -257,7 +260,7 @@ private:
   }
 
   /// Something was hit or slipped on the way there, or on the way back: one pass of a block differs, or its reversal.
-  /// Of the first and the last pass a step in time says the same.
+  /// A step in time says the same of the first and the last pass.
   void passes(const Covariate& direction, const Grouping& blocks) {
     if (blocks.groups.size() > criteria.most_label_groups) return;
     const Vector way = plain(o_, direction);

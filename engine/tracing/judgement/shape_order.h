@@ -20,7 +20,7 @@ void order_shapes(const TraceContext& context, const Evidence& evidence, std::ve
 bool is_lasting_step(const Candidate& candidate, const Observations& observations);
 
 /// The step that lasts which the fitted readings cannot tell from a shape of one block, or of one pass: the last block
-/// says the same as a step that begins with it, and of aligned blocks any does. What changed is expected to stay so;
+/// says the same as a step that begins with it, and of aligned blocks any does. A change is expected to last;
 /// held-out readings tell. There are more instants than blocks, so that the step need not pass by itself.
 std::optional<std::size_t> same_that_lasts(const TraceContext& context, const Evidence& evidence, std::size_t shape);
 

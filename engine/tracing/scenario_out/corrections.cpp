@@ -70,15 +70,23 @@ Correction common(const TraceContext& c, const Candidate& shape, const std::stri
   return out;
 }
 
-/// Slope of a line through the origin on which all rows lie; empty if there is none.
-std::optional<double> slope_of(const std::map<double, double>& rows) {
-  const auto& [x, y] = *rows.rbegin();
-  if (x == 0) return std::nullopt;
-  const double slope = y / x;
-  constexpr double rounding = 1e-12;
-  const bool line = std::ranges::all_of(
-      rows, [&](const auto& row) { return std::fabs(row.second - slope * row.first) <= rounding * std::fabs(y); });
-  return line ? std::optional(slope) : std::nullopt;
+/// A straight line: y at x = 0, and its slope.
+struct StraightLine {
+  double at_zero, slope;
+  double operator()(double x) const { return at_zero + slope * x; }
+};
+
+/// The line on which all rows, two at least, lie; empty if there is none.
+std::optional<StraightLine> line_of(const std::map<double, double>& rows) {
+  const auto& [x, y] = *rows.begin();
+  const auto& [end_x, end_y] = *rows.rbegin();
+  if (x == end_x) return std::nullopt;
+  const double slope = (end_y - y) / (end_x - x), size = std::max(std::fabs(y), std::fabs(end_y));
+  const StraightLine line{y - slope * x, slope};
+  const double rounding = 1e-12 * std::max(size, std::fabs(line.at_zero));
+  const bool all =
+      std::ranges::all_of(rows, [&](const auto& row) { return std::fabs(row.second - line(row.first)) <= rounding; });
+  return all ? std::optional(line) : std::nullopt;
 }
 
 /// A group's own dependence on a condition over the levels it met, by one column of the loading. Where other groups
@@ -96,9 +104,9 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
     if (g.group[o.sequence[i]] == active) rows[keys[0]->value[o.sequence[i]]] = loading[index(i)];
   const auto& levels = keys[0]->levels;
   if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) {
-    const auto slope = slope_of(rows);
-    if (!slope) return std::nullopt;
-    for (const double end : {levels.front(), levels.back()}) rows.try_emplace(end, *slope * end);
+    const auto line = line_of(rows);
+    if (!line) return std::nullopt;
+    for (const double end : {levels.front(), levels.back()}) rows.try_emplace(end, (*line)(end));
   }
   out.keys = {{keys[0]->name, keys[0]->unit, keys[0]->si_unit, {}}};
   for (const auto& [level, here] : rows) {
