@@ -40,6 +40,8 @@ void add_help(CLI::App& app, Action& action); ///< after all others: examples, `
 
 /// What is wrong with a command line that CLI11 refuses, with the nearest command or option.
 Problem parse_problem(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error);
+/// Throws InputError if an option or an argument of the command was given as an empty text, which would pass for none.
+void refuse_empty_words(const CLI::App& command);
 
 /// Models and effects as the scenario parser wants them.
 scenario::Catalogue catalogue();

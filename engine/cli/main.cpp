@@ -57,6 +57,7 @@ int command_line(int argc, char** argv) {
   cli::add_help(app, action);
   try {
     app.parse(argc, argv);
+    cli::refuse_empty_words(*app.get_subcommands().front());
     if (launch && !app.got_subcommand("run") && !app.got_subcommand("choose")) {
       if (silent) return 0;
       throw InputError("gumshoe " + app.get_subcommands().front()->get_name() + " is the work of one process",

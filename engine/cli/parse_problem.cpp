@@ -32,4 +32,11 @@ Problem parse_problem(const CLI::App& app, const std::vector<std::string>& words
   return {{}, error.what(), command_known ? "gumshoe " + words[0] + " --help lists the options" : "--help lists the options", ""};
 }
 
+void refuse_empty_words(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (std::ranges::find(option->results(), "") != option->results().end())
+      throw InputError(option->get_name() + ": the text is empty", "as of a variable of the shell that is not set",
+                       "give a text, or leave the option out");
+}
+
 } // namespace gumshoe::cli

@@ -292,6 +292,8 @@ class BadInput(InOneFolder):
             **{f"--sample {n}": (["replay", self.result, "--sample", n], ["--sample"]) for n in ("1e30", "-1", "abc", "1.5", "nan", "")},
             **{f"--sample {n}": (["replay", self.result, "--sample", n], ["is beyond the run"]) for n in ("1000", "1e15")},
             "no sample": (["replay", self.result], ["--sample"]),
+            "an empty name": (["run", self.good, "--out", ""], ["--out: the text is empty", "leave the option out"]),
+            "an empty scenario": (["check", ""], ["scenario: the text is empty"]),
         }.items():
             with self.subTest(name):
                 self.refused(gumshoe(*command), words)
