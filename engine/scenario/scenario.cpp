@@ -1,6 +1,7 @@
 #include "scenario/scenario.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -287,17 +288,13 @@ private:
     table->refuse_unknown();
   }
 
-  /// Names that stand in the result file next to the model's own, under /outputs and /readings.
+  /// The result file has datasets of these names next to the measurands.
   void refuse_names_of_datasets(Table& table, const ModelCard& model) {
-    const auto refuse = [&](std::span<const VariableCard> variables, std::initializer_list<std::string_view> taken) {
-      for (const VariableCard& v : variables)
-        if (std::ranges::find(taken, v.name) != taken.end())
-          table.add(fmt::format("model: '{}' cannot be the name of a measurand, an indication or a condition", v.name),
-                    "a dataset of the result file has this name", "choose another name");
-    };
-    refuse(model.measurands, {"status", "sample", "reading"});
-    refuse(model.indications, {"status", "sample", "reading", "label", "repeats"});
-    refuse(model.conditions, {"reading", "label", "repeats"});
+    constexpr std::array taken{"status", "sample", "reading"};
+    for (const VariableCard& v : model.measurands)
+      if (std::ranges::find(taken, v.name) != taken.end())
+        table.add(fmt::format("model: '{}' cannot be the name of a measurand", v.name),
+                  "a dataset of the result file has this name", "choose another name");
   }
 
   /// Refuses the name of a size where that of its effect is expected.

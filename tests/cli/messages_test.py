@@ -162,7 +162,6 @@ CHECKED = [
     (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'status = "a + b"', "'status' cannot be the name of a measurand"),
     (FORMULA, 'y = "a + b"', 'sample = "a + b"', "a dataset of the result file has this name"),
-    (FORMULA, None, '[conditions]\nreading = "1 mm"\n', "'reading' cannot be the name of a measurand, an indication or a condition"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
     (FORMULA, "b = {", 'pi = { value = "2 mm" }\nb = {', "quantities.pi: this name is a constant of formulas"),
     (FORMULA, "[quantities]", '[conditions]\ne = 1\n[quantities]', "conditions.e: this name is a constant of formulas"),

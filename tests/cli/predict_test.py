@@ -36,6 +36,17 @@ ROWS = "cycle,x,d\n1,0,2.5\n1,100,30\n2,300,8.5\n"
 
 
 class Predict(InFolder):
+    def test_a_name_that_the_result_file_has(self):
+        """An indication may be called reading; what is predicted may not."""
+        (self.folder / "r.csv").write_text(ROWS)
+        (self.folder / "s.toml").write_text(LINE.replace('\nd = ', '\nreading = ').replace("[indications.d", "[indications.reading"))
+        self.assertEqual(gumshoe("check", "s.toml", cwd=self.folder).returncode, 0)
+        run = gumshoe("run", "s.toml", "--predict", "--samples", 1000, "--out", "o.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("'reading' cannot be the name of what is predicted (a dataset of the result file has this name). "
+                      "Choose another name for the indication.", run.stderr)
+        self.assertFalse((self.folder / "o.h5").exists())
+
     def predict(self, file, *words):
         run = gumshoe("run", file, *words, "--out", self.folder / "r.h5", "--force", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)

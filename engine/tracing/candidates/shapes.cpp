@@ -97,7 +97,8 @@ private:
   /// One candidate per indication.
   /// @param labels  of the readings that it moves alone
   void add(Family family, const std::string& name, const Matrix& by_reading, const std::vector<std::string>& depends_on,
-           const std::string& shape = "", const std::vector<std::pair<std::string, std::string>>& labels = {}) {
+           const std::string& shape = "", const std::vector<std::pair<std::string, std::string>>& labels = {},
+           double searched = 1) {
     if (by_reading.cols() == 0 || (by_reading.cols() == 1 && of_the_start(by_reading))) return;
     const auto k = index(o_.indications);
     for (Index i = 0; i < k; ++i) {
@@ -115,6 +116,7 @@ private:
         a.amplitudes.push_back(size);
       }
       a.depends_on = depends_on;
+      a.searched = searched;
       out_.push_back(std::move(a));
     }
   }
@@ -241,26 +243,27 @@ private:
     for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) in_group(c, g, i);
   }
 
-  void in_group(const Covariate& c, const Grouping& g, std::size_t i) {
+  void in_group(const Covariate& c, const Grouping& g, std::size_t i, double searched = 1) {
     // The zero of an absolute temperature is far away: about the middle of what was met.
     const Vector x = c.si_unit == "K"
                          ? scaled(o_, c)
                          : plain(o_, c) / std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
-    in_group(x, c, g, i, "product:" + c.name + "*" + g.groups[i]);
+    in_group(x, c, g, i, "product:" + c.name + "*" + g.groups[i], searched);
   }
 
   /// @param x  what depends on the condition, by reading of the sequence
-  void in_group(const Vector& x, const Covariate& c, const Grouping& g, std::size_t i, const std::string& name) {
+  void in_group(const Vector& x, const Covariate& c, const Grouping& g, std::size_t i, const std::string& name,
+                double searched) {
     Vector one = Vector::Zero(x.size());
     std::set<double> levels;
     for (Index r = 0; r < x.size(); ++r)
       if (g.group[o_.sequence[index(r)]] == i) one[r] = x[r], levels.insert(x[r]);
     if (levels.size() < 2) return;
-    add(Family::shape, name, one, {c.name, g.name}, "", {{g.name, g.values[i][0]}});
+    add(Family::shape, name, one, {c.name, g.name}, "", {{g.name, g.values[i][0]}}, searched);
   }
 
   /// Something was hit or slipped on the way there, or on the way back: one pass of a block differs, or its reversal.
-  /// A step in time says the same of the first and the last pass.
+  /// A step in time says the same of the first and the last pass. Each counts as often as there are such shapes.
   void passes(const Covariate& direction, const Grouping& blocks) {
     if (blocks.groups.size() > criteria.most_label_groups) return;
     const Vector way = plain(o_, direction);
@@ -268,12 +271,13 @@ private:
     const auto fitted = [&](std::size_t r) { return o_.held_out.empty() || !o_.held_out[r]; };
     const auto first = std::ranges::find_if(o_.sequence, fitted),
                last = std::find_if(o_.sequence.rbegin(), o_.sequence.rend(), fitted).base() - 1;
+    const double searched = 3 * static_cast<double>(blocks.groups.size());
     for (std::size_t i = 0; i < blocks.groups.size(); ++i) {
-      in_group(direction, blocks, i);
+      in_group(direction, blocks, i, searched);
       for (const double level : direction.levels)
         if (const std::pair one(i, level); one != pass(*first) && one != pass(*last))
           in_group((way.array() == level).cast<double>(), direction, blocks, i,
-                   fmt::format("step:{} with {} {:g}", blocks.groups[i], direction.name, level));
+                   fmt::format("step:{} with {} {:g}", blocks.groups[i], direction.name, level), searched);
     }
   }
 

@@ -161,7 +161,8 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   std::vector<double> rarity, exact;
   for (const Candidate& a : candidates_) {
     exact.push_back(a.exact_ratio);
-    rarity.push_back(a.in_part() || (a.family == Family::shape && a.rare()) ? criteria.rarity_of_part : a.searched);
+    const bool rare = a.in_part() || (a.family == Family::shape && a.rare());
+    rarity.push_back(std::max(a.searched, rare ? criteria.rarity_of_part : 1));
   }
   assessment_ = assess_surely(
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
