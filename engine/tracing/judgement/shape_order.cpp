@@ -77,17 +77,20 @@ bool of_one_block(const Candidate& a, const Observations& o) {
          (a.name.starts_with("step:") || a.rare());
 }
 
-/// Puts a step that lasts in the place of the same in one block.
+/// Puts steps that last before the same in one block; the first of all also if it does not pass by itself.
 void settle_steps(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
-  if (steps_last) {
-    const auto lasts = same_that_lasts(c, e, tried[0].candidate);
-    if (!lasts) return;
-    Trial one = e.trial(*lasts);
-    if (!one.fit.valid) return;
-    std::erase_if(tried, [&](const Trial& t) { return t.candidate == *lasts; });
-    tried.insert(tried.begin(), std::move(one));
-    return;
+  for (std::size_t i = 0; steps_last && i < tried.size(); ++i) {
+    const auto lasts = same_that_lasts(c, e, tried[i].candidate);
+    if (!lasts) continue;
+    const auto here = tried.begin() + index(i),
+               known = std::find_if(here, tried.end(), [&](const Trial&t) { return t.candidate == *lasts; });
+    if (known != tried.end()) {
+      std::rotate(here, known, known + 1);
+    } else if (i == 0) {
+      if (Trial one = e.trial(*lasts); one.fit.valid) tried.insert(here, std::move(one));
+    }
   }
+  if (steps_last) return;
   const auto block = std::ranges::find_if(tried, [&](const Trial& t) {
     const auto lasts = same_that_lasts(c, e, t.candidate);
     return lasts && (t.candidate == tried[0].candidate || *lasts == tried[0].candidate);
@@ -113,11 +116,24 @@ bool is_lasting_step(const Candidate& a, const Observations& o) {
          std::ranges::any_of(o.covariates, [&](const Covariate& x) { return x.course && x.name == a.depends_on[0]; });
 }
 
+namespace {
+
+/// Whether two shapes differ by a constant, or their sum is one, at all readings: the first block, and all after it.
+bool same_everywhere(const Matrix& a, const Matrix& b) {
+  constexpr double rounding = 1e-9;
+  const auto constant = [&](const Matrix& x) { return x.maxCoeff() - x.minCoeff() < rounding; };
+  return constant(a - b) || constant(a + b);
+}
+
+} // namespace
+
 std::optional<std::size_t> same_that_lasts(const TraceContext& c, const Evidence& e, std::size_t a) {
   if (!of_one_block(e.candidates()[a], c.observations)) return std::nullopt;
   constexpr double rounding = 1e-9;
   for (std::size_t b = 0; b < e.candidates().size(); ++b)
-    if (is_lasting_step(e.candidates()[b], c.observations) && std::fabs(e.correlation(a, b)) > 1 - rounding) return b;
+    if (is_lasting_step(e.candidates()[b], c.observations) && std::fabs(e.correlation(a, b)) > 1 - rounding &&
+        !same_everywhere(e.candidates()[a].columns, e.candidates()[b].columns))
+      return b;
   return std::nullopt;
 }
 

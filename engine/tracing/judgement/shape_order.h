@@ -19,9 +19,9 @@ void order_shapes(const TraceContext& context, const Evidence& evidence, std::ve
 /// A step in time, or in the order of measurement, which goes on beyond the readings.
 bool is_lasting_step(const Candidate& candidate, const Observations& observations);
 
-/// The step that lasts which the fitted readings cannot tell from a shape of one block, or of one pass: the last block
-/// says the same as a step that begins with it, and of aligned blocks any does. A change is expected to last;
-/// held-out readings tell. There are more instants than blocks, so that the step need not pass by itself.
+/// The step that lasts which the fitted readings, but not all, cannot tell from a shape of one block, or of one pass:
+/// the last block says the same as a step that begins with it, and of aligned blocks any does. A change is expected to
+/// last; held-out readings tell. There are more instants than blocks, so that the step need not pass by itself.
 std::optional<std::size_t> same_that_lasts(const TraceContext& context, const Evidence& evidence, std::size_t shape);
 
 /// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
