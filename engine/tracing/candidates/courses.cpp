@@ -234,16 +234,15 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       if (c.comes_back) continue; // what happened at one instant, happened once
       const Steps steps(o, i);
       const Index from = steps.best(places, gain);
-      const auto step = [&](Index at, std::size_t of) {
+      const auto step = [&](Index at) {
         const std::size_t reading = o.sequence[static_cast<std::size_t>(at - 1)] + 1;
         out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({at})));
-        out.back().searched = static_cast<double>(of);
+        out.back().searched = static_cast<double>(places.size());
       };
-      // Between two blocks things are moved: there are fewer such instants.
-      const std::vector<Index> beginnings = beginnings_of_blocks(o, places);
-      const Index beginning = beginnings.empty() ? from : steps.best(beginnings, gain);
-      if (beginning != from) step(from, places.size());
-      step(beginning, beginnings.empty() ? places.size() : beginnings.size());
+      step(from);
+      // One that begins with a block may be what differs there (shape_order.h).
+      if (const std::vector<Index> beginnings = beginnings_of_blocks(o, places); !beginnings.empty())
+        if (const Index beginning = steps.best(beginnings, gain); beginning != from) step(beginning);
       const double range = c.levels.back() - c.levels.front();
       const auto place = [&](const char* kind, double (*profile)(double), double length_of_width) {
         const Placed all(o, c, i, profile);
