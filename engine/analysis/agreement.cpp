@@ -100,12 +100,6 @@ Agreements agreements(const Results& before, const Results& after, const std::ve
     if (!b.output.diagnostic &&
         std::ranges::none_of(before.summaries, [&](const Summary& a) { return a.output.name == b.output.name; }))
       out.only_after.push_back(b.output.name);
-  const auto of_errors = [](const std::vector<std::string>& outputs) {
-    return std::ranges::any_of(outputs, [](const std::string& name) { return name.starts_with("error of "); });
-  };
-  if (out.rows.empty() && of_errors(out.only_before) != of_errors(out.only_after))
-    throw InputError("one of the results holds errors of a virtual experiment, the other values", "they do not compare",
-                     "run both scenarios with the same [model] method");
   if (out.rows.empty())
     throw InputError("the results have no measurand in common",
                      fmt::format("{} against {}", fmt::join(out.only_before, ", "), fmt::join(out.only_after, ", ")),

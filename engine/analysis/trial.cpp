@@ -29,7 +29,7 @@ Trial::Trial(const propagation::Experiment& e, std::size_t output, int threads)
     : scenario_(std::make_unique<scenario::Scenario>(e.scenario())), row_(output), threads_(threads) {
   const std::size_t reading = e.outputs()[output].reading, measurands = e.measurands().size();
   if (!e.joint() && alike(e.scenario().readings)) {
-    scenario::take_reading(*scenario_, e.scenario(), reading);
+    scenario::narrow_to_reading(*scenario_, e.scenario(), reading);
     row_ = output - reading * measurands;
   }
   experiment_ = std::make_unique<propagation::Experiment>(*scenario_);

@@ -206,6 +206,12 @@ ExitCode compare(const CompareOptions& o) {
   if (traces && before.model != after.model)
     throw InputError("the traces are of different models", fmt::format("{} and {}", before.model, after.model),
                      "compare traces of one measuring system");
+  const auto of_errors = [](const store::Identity& i) {
+    return i.method == name(scenario::Method::virtual_experiment);
+  };
+  if (!traces && of_errors(before) != of_errors(after))
+    throw InputError("one of the results holds errors of a virtual experiment, the other values", "they do not compare",
+                     "run both scenarios with the same [model] method");
   return traces ? compare_traces(o) : compare_results(o);
 }
 

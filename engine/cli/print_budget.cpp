@@ -56,7 +56,8 @@ std::vector<Part> parts(const Budget& b, const std::vector<SobolIndex>& indices)
 
 std::string percent(double share) {
   constexpr double rounding = 1e-9;
-  if (share == 0 || std::fabs(share - 1) < rounding) return share == 0 ? "0 %" : "100 %"; // there is no other
+  if (share == 0) return "0 %";
+  if (std::fabs(share - 1) < rounding) return "100 %"; // there is no other
   if (std::fabs(share) >= 0.005) return analysis::share_text(share);
   return std::fabs(share) < 5e-5 ? "< 0.01 %" : fmt::format("{:.1g} %", 100 * share);
 }

@@ -1,25 +1,18 @@
 #include "propagation/experiment.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/units.h"
+#include "quantities/cells.h"
 
 namespace gumshoe::propagation {
 
 namespace {
-
-/// Label values of a reading, such as "rod 2, setup 1"; "" if it has none.
-std::string label_name(const quantities::Reading& reading) {
-  std::string name;
-  for (const auto& [label, value] : reading.labels)
-    // "rod 2" says that it is a rod; "1" does not say that it is a setup.
-    name += (name.empty() ? "" : ", ") + (value.starts_with(label) ? value : label + " " + value);
-  return name;
-}
 
 /// The conditions of a reading in which the readings `alike` differ: "feed 30 mm/min".
 std::string differing_conditions(const std::vector<quantities::Reading>& readings, std::size_t r,
@@ -44,7 +37,7 @@ std::map<std::string, std::vector<std::size_t>> grouped(const std::vector<std::s
 
 std::vector<std::string> unique_names(const std::vector<quantities::Reading>& readings, const ModelCard& card) {
   std::vector<std::string> names;
-  for (const auto& reading : readings) names.push_back(label_name(reading));
+  for (const auto& reading : readings) names.push_back(quantities::text_of(reading.labels));
   const auto add = [&](std::size_t r, const std::string& text) {
     if (!text.empty()) names[r] += (names[r].empty() ? "" : ", ") + text;
   };
@@ -101,6 +94,16 @@ ForwardModel forward_model_of(const scenario::Scenario& s, const models::Model& 
   return ForwardModel(model, acting, evaluation, std::move(conditions), std::move(stated));
 }
 
+/// The samples of outputs are datasets of their names; next to them the result file has these.
+void refuse_names_of_datasets(const scenario::Scenario& s, std::span<const VariableCard> outputs) {
+  constexpr std::array taken{"status", "sample", "reading"};
+  for (const VariableCard& v : outputs)
+    if (std::ranges::find(taken, v.name) != taken.end())
+      throw InputError({{find_line(s, "[model]"),
+                         fmt::format("model: '{}' cannot be the name of a measurand or of what is predicted", v.name),
+                         "a dataset of the result file has this name", "choose another name"}});
+}
+
 } // namespace
 
 Experiment::Experiment(const scenario::Scenario& s, Trial trial)
@@ -130,6 +133,7 @@ Experiment::Experiment(const scenario::Scenario& s, Trial trial)
     forward_.declare(declared());
     check_together();
   }
+  refuse_names_of_datasets(s, measurands_);
   for (std::size_t r = 0; r < (joint_ ? 1 : s.readings.size()); ++r) add_outputs(r);
   find_twins();
   keeping_ = models::keeping_kernels(this->model());

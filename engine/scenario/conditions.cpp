@@ -154,7 +154,7 @@ void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {
   }
 }
 
-void take_reading(Scenario& alone, const Scenario& all, std::size_t reading) {
+void narrow_to_reading(Scenario& alone, const Scenario& all, std::size_t reading) {
   alone.readings = {all.readings[reading]};
   if (!all.trace.order.empty()) alone.trace.order = {0};
   for (std::size_t c = 0; c < all.trace.columns.size(); ++c)

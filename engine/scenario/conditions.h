@@ -37,7 +37,7 @@ void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n);
 
 /// Makes `alone` what `all` is at one reading: the reading itself, and whatever is stated by reading. Everything else
 /// is left as it is, so that `alone` is a copy of `all`, taken once for any number of readings.
-void take_reading(Scenario& alone, const Scenario& all, std::size_t reading);
+void narrow_to_reading(Scenario& alone, const Scenario& all, std::size_t reading);
 
 /// Loadings of the stated effects at the readings as they are now, after their conditions or the columns of [trace]
 /// changed. NaN where a table has no value. What reads columns is left as it is where these have no value at every

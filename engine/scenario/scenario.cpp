@@ -1,7 +1,6 @@
 #include "scenario/scenario.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -222,7 +221,6 @@ private:
         problems_.raise();
       }
       model = out_.made->card;
-      refuse_names_of_datasets(*table, *model);
       out_.external = context_.external.code;
     }
     const auto evaluations = model ? names_of(model->evaluations) : std::vector<std::string>{};
@@ -286,15 +284,6 @@ private:
     }
     refuse_names_of_sizes(*table, model);
     table->refuse_unknown();
-  }
-
-  /// The result file has datasets of these names next to the measurands.
-  void refuse_names_of_datasets(Table& table, const ModelCard& model) {
-    constexpr std::array taken{"status", "sample", "reading"};
-    for (const VariableCard& v : model.measurands)
-      if (std::ranges::find(taken, v.name) != taken.end())
-        table.add(fmt::format("model: '{}' cannot be the name of a measurand", v.name),
-                  "a dataset of the result file has this name", "choose another name");
   }
 
   /// Refuses the name of a size where that of its effect is expected.

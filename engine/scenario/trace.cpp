@@ -45,8 +45,8 @@ private:
       refuse(m, "a formula cannot use this name", "use letters, digits and _, with no digit first");
     else if (std::ranges::any_of(scope_.model.conditions, is_it))
       refuse(m, "the name already has a meaning", fmt::format("it is a condition of the model {}", scope_.model.name),
-             fmt::format("write it under [data.conditions], or under conditions of the readings of an indication, in "
-                         "place of [trace.columns]; or choose another name"));
+             "write it under [data.conditions], or under conditions of the readings of an indication, in place of "
+             "[trace.columns]; or choose another name");
     else if (std::ranges::any_of(scope_.model.indications, is_it) ||
              std::ranges::any_of(scope_.model.quantities, is_it))
       refuse(m, "the name already has a meaning", fmt::format("of the model {}", scope_.model.name),

@@ -76,9 +76,6 @@ void create_samples(hid_t file, const std::vector<propagation::Output>& outputs,
   for (const auto& output : outputs) {
     if (output.reading >= readings) throw std::logic_error("output of an unknown reading");
     const std::string& name = output.measurand;
-    if (name == "status" || name == "sample" || name == "reading") // a prediction has the names of indications
-      throw InputError(fmt::format("'{}' cannot be the name of what is predicted", name),
-                       "a dataset of the result file has this name", "choose another name for the indication");
     if (std::ranges::find(paths, "outputs/" + name) != paths.end()) continue;
     paths.push_back("outputs/" + name);
     const auto covered = std::ranges::count(outputs, name, &propagation::Output::measurand);

@@ -125,21 +125,25 @@ bool has_lasting_step(const TraceContext& c, const Search& s) {
                              [&](const Term& t) { return is_lasting_step(t.candidate, c.observations); });
 }
 
+/// Where the hold-out blocks reject a step that lasts, one block may differ: the search with that, if they do not
+/// reject it as well.
+bool settled_on_one_block(const TraceContext& c, const Trace& start, Search& found, Trace& out) {
+  if (!has_lasting_step(c, found)) return false;
+  Search other = search_in_rounds(c, {.steps_last = false});
+  Trace judged = start;
+  if (has_lasting_step(c, other) || other.findings.empty() || compare(c, other, judged)) return false;
+  judged.statements.emplace_back("a step that lasts explains the training data as well; the hold-out blocks reject it");
+  found = std::move(other);
+  out = std::move(judged);
+  return true;
+}
+
 /// Compares before and after. If the hold-out blocks veto, all that was found in the last round is dropped, and they
 /// judge the rest anew. A rejected name gives way to what the readings show without it.
 void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
   const Trace start = out;
   std::vector<std::string> rejected;
-  out.vetoed = compare(c, found, out);
-  if (out.vetoed && has_lasting_step(c, found)) { // or one block differs
-    Search other = search_in_rounds(c, {.steps_last = false});
-    Trace judged = start;
-    if (!has_lasting_step(c, other) && !other.findings.empty() && !compare(c, other, judged)) {
-      found = std::move(other);
-      out = std::move(judged);
-      out.vetoed = false;
-    }
-  }
+  out.vetoed = compare(c, found, out) && !settled_on_one_block(c, start, found, out);
   for (; out.vetoed && found.stages.size() > 1; out.vetoed = compare(c, found, out)) {
     const auto dropped = step_back(c, found);
     rejected.insert(rejected.begin(), dropped.begin(), dropped.end());

@@ -160,7 +160,7 @@ CHECKED = [
     (FORMULA, 'y = "a + b"', "", "no formula"),
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
     (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
-    (FORMULA, 'y = "a + b"', 'status = "a + b"', "'status' cannot be the name of a measurand"),
+    (FORMULA, 'y = "a + b"', 'status = "a + b"', "'status' cannot be the name of a measurand or of what is predicted"),
     (FORMULA, 'y = "a + b"', 'sample = "a + b"', "a dataset of the result file has this name"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
     (FORMULA, "b = {", 'pi = { value = "2 mm" }\nb = {', "quantities.pi: this name is a constant of formulas"),

@@ -43,8 +43,8 @@ class Predict(InFolder):
         self.assertEqual(gumshoe("check", "s.toml", cwd=self.folder).returncode, 0)
         run = gumshoe("run", "s.toml", "--predict", "--samples", 1000, "--out", "o.h5", cwd=self.folder)
         self.assertEqual(run.returncode, 2)
-        self.assertIn("'reading' cannot be the name of what is predicted (a dataset of the result file has this name). "
-                      "Choose another name for the indication.", run.stderr)
+        self.assertIn("'reading' cannot be the name of a measurand or of what is predicted (a dataset of the result file has "
+                      "this name). Choose another name.", run.stderr)
         self.assertFalse((self.folder / "o.h5").exists())
 
     def predict(self, file, *words):

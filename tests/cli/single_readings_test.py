@@ -43,7 +43,7 @@ class SingleReadings(InFolder):
             return [t["allowed"][list(t["quantity"][:]).index(quantity.encode())] * 1e6 for t in f["target"].values()]
 
     def test_the_noise_of_each_reading(self):
-        """1, 3 and 4 um, of readings that no label tells apart; how much is left for another quantity?"""
+        """Readings of 1, 3 and 4 um without labels: what they leave for another quantity."""
         found = self.targets("x", 'u = { column = "ux", unit = "um" }', '[quantities]\nx = { value = "0 um", u = "1 um" }\n'
                              '[[analysis.targets]]\nmeasurand = "y"\nU = "10 um"\n', measurand="z + x")
         self.assertEqual(len(found), 3, found)

@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "tracing/candidates/courses.h"
+#include "tracing/candidates/smooth_basis.h"
 #include "unit/tracing_case.h"
 #include "unit/tracing_dense.h"
 

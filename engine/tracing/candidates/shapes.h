@@ -11,8 +11,4 @@ namespace gumshoe::tracing {
 /// @param most_cells  levels, or combinations of levels, up to which "any value" is a candidate
 std::vector<Candidate> shapes(const Observations& observations, std::size_t most_cells);
 
-/// Smooth basis of one covariate by reading of the sequence, constant left out: indicator of each level if there are at
-/// most `most` + 1, harmonics of an angle that goes round, else a cubic spline with `most` columns.
-Matrix smooth_basis(const Observations& observations, const Covariate& covariate, int most);
-
 } // namespace gumshoe::tracing

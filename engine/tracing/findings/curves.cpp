@@ -312,7 +312,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
   const auto sense = sense_of(fit.terms[term].candidate, covariates, c.observations);
   if (sense) covariates.push_back(&*sense);
   CellTable table = make.by(covariates, labels);
-  const Candidate& of_a_group = fit.terms[term].candidate;
+  const Candidate& shape = fit.terms[term].candidate;
   if (of_one) {
     if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
       finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
@@ -328,12 +328,12 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
       finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
-  } else if (const std::string step = covariates.empty() || of_a_group.name.starts_with("step:") ? make.step() : "";
+  } else if (const std::string step = covariates.empty() || shape.name.starts_with("step:") ? make.step() : "";
              !step.empty()) {
     finding.remarks.push_back("it differs by " + step);
-  } else if (of_a_group.rare() && covariates.size() == 1) {
+  } else if (shape.rare() && covariates.size() == 1) {
     finding.remarks.push_back(fmt::format("{} alone has a straight line against {}: {}",
-                                          quantities::text_of(of_a_group.amplitudes[0].labels), covariates[0]->name,
+                                          quantities::text_of(shape.amplitudes[0].labels), covariates[0]->name,
                                           make.slope(*covariates[0])));
   }
   if (!table.y.empty()) finding.tables.push_back(std::move(table));

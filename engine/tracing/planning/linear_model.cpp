@@ -86,7 +86,7 @@ private:
     const std::size_t first = one_each.readings.size() - plan_.readings.size();
     std::string why;
     for (std::size_t i = 0; i < plan_.readings.size(); ++i) {
-      scenario::take_reading(alone, one_each, first + i);
+      scenario::narrow_to_reading(alone, one_each, first + i);
       const std::string reason = impossible(alone);
       if (reason.empty())
         out_.allowed.push_back(i);
