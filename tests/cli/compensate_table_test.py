@@ -123,8 +123,9 @@ class Tables(InOneFolder):
         for place in ("5000 mm", "-6 mm"):
             self.refused((*eec, "--step", "50 mm", "--reference", place), f"--reference: {place} is outside the travel measured",
                          "(-5.9 mm to 892.5 mm)")
-        for name in ("X1\nM30", "", "X 1", "X,1", "\u00c4"):
+        for name in ("X1\nM30", "X 1", "X,1", "\u00c4"):
             self.refused((*eec, "--step", "50 mm", "--axis", name), "the name of an axis has letters, digits and _ only")
+        self.refused((*eec, "--step", "50 mm", "--axis", ""), "--axis: the text is empty")
         self.refused(eec, "the positions are not equidistant", 'Use --step "100 mm".')
         text = self.compensate("sinumerik-eec", "--step", "300 mm", "--reference", "892.5 mm").stdout
         self.assertAlmostEqual(float(re.search(r"^\$AA_ENC_COMP\[0,3,X1\]=(.+)$", text, re.M)[1]), 0, delta=1e-4)
