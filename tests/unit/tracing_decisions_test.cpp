@@ -136,12 +136,13 @@ TEST_CASE("effects that explain as much as scatter are tried in its place", "[tr
 TEST_CASE("hold-out blocks veto what does not predict them better", "[tracing]") {
   constexpr double noise = 3e-6; // m: 97.5 % of what noise alone gives
   const auto none = [] { return 0.0; };
-  CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, {3, 0}, noise, none) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {25, 2e-6}, {3, 0}, noise, none) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {26.5, 2e-6}, {3, 0}, noise, none) == Holdout::favours); // 2 ln L below 3.84
   CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, {2, 0}, noise, none) ==
         Holdout::vetoes); // no better in units of all that is declared
   // The root mean square grows by more than 5 %.
   CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, {2, 0}, noise, none) == Holdout::vetoes);
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, {3, 0}, noise, none) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {25, 2.09e-6}, {3, 0}, noise, none) == Holdout::confirms);
   CHECK(judge_holdout({30, 2e-6}, {31, 2.2e-6}, {1, 0}, noise, none) ==
         Holdout::unsure); // as chance gives were the finding true
 }
@@ -152,7 +153,7 @@ TEST_CASE("hold-out blocks veto what leaves them with more than noise and no les
   CHECK(judge_holdout({30, 2e-6}, {31, 2e-6}, {1, 0}, noise, none) == Holdout::vetoes);
   CHECK(judge_holdout({30, 2e-6}, {31, 1.9e-6}, {1, 0}, noise, none) == Holdout::unsure); // something else may be left
   CHECK(judge_holdout({30, 0.8e-6}, {31, 0.9e-6}, {1, 0}, noise, none) == Holdout::unsure); // noise gives as much
-  CHECK(judge_holdout({30, 2e-6}, {29, 2.05e-6}, {1, 0}, noise, none) ==
+  CHECK(judge_holdout({30, 2e-6}, {25, 2.05e-6}, {1, 0}, noise, none) ==
         Holdout::confirms); // in units of all that is declared
 }
 

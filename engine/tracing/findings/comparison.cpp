@@ -249,7 +249,10 @@ private:
     const Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
                                        overstated(before, after, judged_.design), out_.rms.holdout_noise_high,
                                        [&] { return beyond_chance(); });
-    out_.unconfirmed = says == Holdout::unsure || says == Holdout::outweighed;
+    out_.unconfirmed = says == Holdout::favours || says == Holdout::unsure || says == Holdout::outweighed;
+    if (says == Holdout::favours)
+      out_.statements.push_back("the hold-out blocks are predicted better with what was found, but by no more than "
+                                "chance gives: they can neither confirm nor reject it");
     if (says == Holdout::unsure)
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
                                 "chance gives: they can neither confirm nor reject it");

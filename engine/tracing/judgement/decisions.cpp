@@ -88,7 +88,8 @@ bool larger_noise_found(const Assessment& a, double alpha) {
 
 Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, const Overstated& overstated,
                       double noise_high, const std::function<double()>& beyond) {
-  if (after.whitened < before.whitened && after.rms <= criteria.veto_growth * before.rms) return Holdout::confirms;
+  if (after.whitened < before.whitened && after.rms <= criteria.veto_growth * before.rms)
+    return before.whitened - after.whitened > criteria.decisive ? Holdout::confirms : Holdout::favours;
   const bool beyond_noise = after.rms >= before.rms && after.rms > noise_high;
   if (!(overstated.plain > criteria.overstated || beyond_noise)) return Holdout::unsure;
   const bool by_chance = std::max(overstated.plain, overstated.weighted) <= criteria.overstated_surely &&

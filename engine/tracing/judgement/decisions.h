@@ -94,7 +94,9 @@ struct Overstated {
 };
 /// What the hold-out blocks say of findings to which they are sensitive.
 enum class Holdout {
-  confirms,
+  confirms, ///< they are predicted better, by more than one of forty false findings gives
+  /// They are predicted better, but by no more than chance gives: they can neither confirm nor reject them.
+  favours,
   /// They are predicted no better, but by no more than chance were the findings true: they can neither confirm nor
   /// reject them.
   unsure,
