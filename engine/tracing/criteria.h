@@ -31,6 +31,9 @@ struct Criteria {
   double further_share = 0.5;
   /// Share of the declared noise that a display's step gives from which nothing else is declared.
   double display_alone = 0.9;
+  /// Share of a display's step below which the scatter of repeated readings leaves rounding that repeats: at half a
+  /// step, what it leaves is 1 % of one.
+  double coarse = 0.5;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
   /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one

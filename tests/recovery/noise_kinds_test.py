@@ -99,15 +99,17 @@ class CoarseDisplay(Noise):
     def test_equal_residuals_are_no_noise_of_zero(self):
         x = np.tile(np.concatenate([np.arange(0, 501, 50), np.arange(500, -1, -50)]), 5)
         n = len(x)
+        alarms = 0
         for seed in range(8):
             rng = np.random.default_rng([1, seed])
             d = np.rint(0.02 * x + 0.3 * rng.standard_normal(n))
             self.write(AXIS, run=np.arange(n) // 22 + 1, direction=np.where(np.arange(n) % 22 < 11, 1, -1), x=x, t=20 * np.arange(n), d=d)
             found = self.trace("s.toml")
-            self.assertEqual(found["findings"], [], seed)
+            alarms += bool(found["findings"])
             # 88 readings: the number of those that are off by 1 um scatters by a third, the noise by a sixth.
             self.assertGreater(found["noise"]["scale"], 0.74 / 2, seed)
             self.assertLess(found["noise"]["scale"], 0.74 * 2, seed)
+        self.assertLessEqual(alarms, 1)  # of 5 %
 
     def test_an_effect_that_is_named_is_known_to_differ_from_zero(self):
         """Noise of half a step, and nothing else. With the effect other readings are winsorised: its likelihood ratio is 10.5,
@@ -139,6 +141,39 @@ class CoarseDisplay(Noise):
                 d = np.rint(3 + spread * rng.standard_normal(n))
                 self.write(AXIS, run=np.arange(n) // 18 + 1, direction=np.where(np.arange(n) % 18 < 9, 1, -1), x=x, t=20 * np.arange(n), d=d)
                 self.assertEqual(self.trace("s.toml")["anomalous_blocks"], [], (spread, seed))
+
+
+class RoundingComesBack(Noise):
+    """Noise of a tenth of a step, and a gain that puts every target at another place between two steps: readings of one target are
+    all rounded alike, by up to half a step. That had been a finding in 16 of 20 sets without any."""
+
+    def axis(self, seed, reversal=0.0):
+        rng = np.random.default_rng([6, seed])
+        x = np.tile(np.concatenate([np.arange(0, 801, 100), np.arange(800, -1, -100)]), 6)
+        n = len(x)
+        direction = np.where(np.arange(n) % 18 < 9, 1, -1)
+        true = rng.uniform(-3, 3) + rng.uniform(-0.015, 0.015) * x + reversal * direction
+        self.write(MACHINE_AXIS, run=np.arange(n) // 18 + 1, direction=direction, x=x, t=15 * np.arange(n),
+                   d=np.rint(true + 0.1 * rng.standard_normal(n)))
+        return self.trace("s.toml")
+
+    def test_it_is_no_effect(self):
+        alarms = [bool(self.axis(seed)["findings"]) for seed in range(16)]
+        self.assertLessEqual(sum(alarms), 3)  # of 5 %: more in one case of 150
+
+    def test_it_hides_no_effect(self):
+        """A reversal of 0.8 steps, either way. A reading is not known better than to a step over sqrt(12)."""
+        named = 0
+        for seed in range(8):
+            found = self.axis(seed, reversal=0.8)["findings"]
+            [size] = [q for f in found if f["members"] == ["axis_reversal"] for q in f["quantities"]] or [None]
+            if size is None:
+                continue
+            named += 1
+            self.assertEqual(size["unit"], "um")
+            self.assertAlmostEqual(size["value"], -1.6, delta=1, msg=seed)  # rounded twice, by half a step
+            self.assertGreater(size["u"], 1 / 12 ** 0.5 / 108 ** 0.5, seed)
+        self.assertGreaterEqual(named, 6)
 
 
 class MoreNoiseThanDeclared(Noise):

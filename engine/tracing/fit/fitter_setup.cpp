@@ -38,6 +38,7 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
   spread_ = Vector::Ones(index(observations.indications));
   find_responses();
   find_spread();
+  find_coarse();
   find_growth();
   find_covariance_models();
 }
@@ -252,7 +253,7 @@ std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& b
 
 /// As in find_growth(), without readings that stand out with these weights and without them.
 bool Fitter::weigh_by_label(const JointFit& found) {
-  if (noise_declared_ || growth_) return false;
+  if (noise_declared_ || growth_ || !coarse_.empty()) return false;
   const auto best = by_label_without({}, found);
   if (!best) return false;
   const auto outlying = [&] {
@@ -284,7 +285,7 @@ std::vector<Index> Fitter::outlying_in_cells(const JointFit& fit) const {
 /// A reading that stands out, whether noise grows or not, moves the mean of its cell, so that in every pass one reading
 /// there seems to scatter more: growth must be there without it.
 void Fitter::find_growth() {
-  if (noise_declared_) return;
+  if (noise_declared_ || !coarse_.empty()) return; // rounding scatters by where between two steps a place lies
   const auto grows = growth_without({});
   if (!grows) return;
   const std::vector<Index> with_equal = outlying_in_cells(linearised(1));
@@ -294,6 +295,20 @@ void Fitter::find_growth() {
   if (bad.empty()) return;
   growth_.reset();
   growth_ = growth_without(bad);
+}
+
+void Fitter::find_coarse() {
+  const JointFit fit = linearised(1);
+  if (!fit.valid) return;
+  const PureError pure(fit.design, rows_, replicates_, threads_);
+  if (!pure.known()) return;
+  const double scatter = pure.scale(fit.residual(rows_))[0];
+  std::vector<double> steps;
+  for (std::size_t k = 0; k < observations_.indications; ++k) {
+    const double step = observations_.step[k];
+    steps.push_back(scatter * fit.design.reference[k] < criteria.coarse * step ? step : 0);
+  }
+  if (std::ranges::any_of(steps, [](double step) { return step > 0; })) coarse_ = std::move(steps);
 }
 
 std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {

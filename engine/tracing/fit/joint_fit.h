@@ -182,6 +182,8 @@ private:
   /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
   void find_covariance_models();
+  /// Which indications were read in steps so coarse that rounding repeats, by the scatter of readings that come back.
+  void find_coarse();
   /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
   struct Scatter {
     Vector size;  ///< by indication, SI
@@ -244,6 +246,7 @@ private:
   bool noise_declared_ = false;
   Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
   Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
+  std::vector<double> coarse_;        ///< as Design::coarse
   std::optional<NoiseGrowth> growth_; ///< of noise that is not declared; this or the next
   std::optional<NoiseByLabel> by_label_;
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending

@@ -26,6 +26,7 @@ bool Fitter::linearise(JointFit& fit) const {
   d.indications = o.indications;
   d.scatter = o.replicate_groups;
   d.step = o.step;
+  d.coarse = coarse_;
   d.covariance_models = covariance_models_;
   d.reading.clear();
   for (const std::size_t r : o.sequence) d.reading.insert(d.reading.end(), o.indications, r);

@@ -39,7 +39,8 @@ Matrix orthonormal(const Matrix& products, const Vector& length) {
 }
 
 double criterion(double left, const Whitened& w) {
-  return static_cast<double>(w.degrees_of_freedom()) * std::log(std::max(left, 1e-300)) + w.log_determinant();
+  return static_cast<double>(w.degrees_of_freedom()) * std::log(std::max(left + w.hidden_squares(), 1e-300)) +
+         w.log_determinant();
 }
 
 } // namespace
@@ -162,7 +163,9 @@ Matrix Scan::signatures(std::size_t first, std::size_t last, std::size_t k) cons
 }
 
 double Scan::squares_of(double criterion, std::size_t k) const {
-  return std::exp((criterion - whitened_[k].log_determinant()) / static_cast<double>(freedom_));
+  const Whitened& w = whitened_[k];
+  return std::max(0.0,
+                  std::exp((criterion - w.log_determinant()) / static_cast<double>(freedom_)) - w.hidden_squares());
 }
 
 double Scan::criterion(double left, std::size_t k) const { return tracing::criterion(left, whitened_[k]); }
@@ -263,7 +266,7 @@ void Scan::choose_models(const Matrix& without, Index j, Statistics& out) const 
   for (Index c = 0; c < out.scatter.rows(); ++c)
     out.scatter(c, j) = std::max(0.0, without(index(single), j) - component[c]);
   const auto variance = [&](std::size_t i) {
-    return squares_of(without(index(i), j), i) / static_cast<double>(freedom_);
+    return std::max(squares_of(without(index(i), j), i), whitened_[i].hidden_squares()) / static_cast<double>(freedom_);
   };
   out.covariance_model[index(j)] = k;
   out.without_scatter[index(j)] = single;

@@ -52,14 +52,14 @@ double least_p(const std::vector<Null>& nulls, const Matrix& statistics, Index s
 /// or few values that readings can have, where half of them may be equal, the root mean square.
 class NoiseSize {
 public:
-  /// @param step  in which readings were recorded
-  NoiseSize(const Scan& scan, const Statistics& data, const Statistics& draws, double core, double declared,
+  /// @param drawn  standard deviation of the draws that are not outlying   @param step  in which readings were recorded
+  NoiseSize(const Scan& scan, const Statistics& data, const Statistics& draws, double drawn, double declared,
             double freedom, double step) {
     const double rms = std::sqrt(data.variance_without_scatter[0]);
     const bool blunt = scan.degrees_of_freedom() < criteria.robust_freedom || step > rms;
     const Vector size = blunt ? Vector(draws.variance_without_scatter.cwiseSqrt()) : draws.scale;
     const double observed = blunt ? rms : data.scale[0];
-    drawn_ = size.array().log() - 0.5 * std::log(data.variance_without_scatter[0]) - std::log(core);
+    drawn_ = size.array().log() - std::log(drawn);
     const auto first = drawn_.head(drawn_.size() / 2);
     middle_ = first.mean();
     spread_ = std::sqrt((first.array() - middle_).square().mean());
@@ -86,7 +86,8 @@ private:
 class RepeatStatistics {
 public:
   RepeatStatistics(const Repeats* repeats, const Vector& residuals) : repeats_(repeats), observed_(of(residuals)) {
-    if (repeats_ && repeats_->blocks > 0) leave_out_steps(residuals);
+    if (repeats_ && repeats_->blocks > 0)
+      observed_.bottomRows(index(repeats_->blocks)) = beyond_steps(spread(residuals));
   }
   /// Takes some of the draws, from set `first` on.
   void take(const Matrix& draws, Index first, Index sets) {
@@ -109,19 +110,19 @@ private:
   BlockSpread spread(const Matrix& residuals) const {
     return block_spread(repeats_->pure.about_cells(residuals), repeats_->block, repeats_->blocks);
   }
-  /// Sets blocks that scatter by no more than a step of the display to zero: where the few readings lie that are off by
-  /// one step is chance, and draws of a continuous noise do not contain that chance.
-  void leave_out_steps(const Matrix& residuals) {
-    const Matrix typical = spread(residuals).typical;
-    for (Index b = 0; b < typical.rows(); ++b)
-      if (typical(b, 0) <= repeats_->step) observed_(first_block() + b, 0) = 0;
+  /// Zero for blocks that scatter by no more than a step of the display: where the few readings lie that are off by one
+  /// step is chance, and draws of a continuous noise do not contain that chance.
+  Matrix beyond_steps(const BlockSpread& blocks) const {
+    return (blocks.typical.array() <= repeats_->step).select(0, blocks.statistic);
   }
   /// Rows: lack of fit if it is tested, then blocks.
   Matrix of(const Matrix& residuals) const {
     if (!repeats_) return Matrix(0, residuals.cols());
     Matrix out(first_block() + index(repeats_->blocks), residuals.cols());
     if (tests_fit()) out.row(0) = repeats_->pure.lack_of_fit(residuals).transpose();
-    if (repeats_->blocks > 0) out.bottomRows(index(repeats_->blocks)) = spread(residuals).statistic;
+    if (repeats_->blocks == 0) return out;
+    const BlockSpread blocks = spread(residuals);
+    out.bottomRows(index(repeats_->blocks)) = repeats_->steps.any() ? beyond_steps(blocks) : blocks.statistic;
     return out;
   }
 
@@ -160,12 +161,20 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   // least of all probabilities comes out by chance.
   const Index sets = draws;
   RepeatStatistics repeated(repeats, residuals);
+  const CoarseSteps* steps = repeats && repeats->steps.any() ? &repeats->steps : nullptr;
+  const auto null_draw = [&](const Whitened& w, double variance, const Draws& some, std::uint64_t key) {
+    NoiseShape shape = out.noise_shape;
+    const double s = std::sqrt(variance);
+    if (steps) shape.own = steps->share(s);
+    Matrix drawn = s * w.draw(some, key, shape);
+    return steps ? steps->read(std::move(drawn), some, key) : drawn;
+  };
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
     Statistics all;
     constexpr Index together = 512; // so that memory does not grow with the draws
     for (Index first = 0; first < 2 * sets; first += together) {
       const Draws some{index(first), index(std::min(together, 2 * sets - first)), index(2 * sets)};
-      const Matrix drawn = std::sqrt(variance) * scan.whitened(k).draw(some, key, out.noise_shape);
+      const Matrix drawn = null_draw(scan.whitened(k), variance, some, key);
       repeated.take(drawn, first, 2 * sets);
       put(scan.run(drawn, criteria.beyond_chance), first, 2 * sets, all);
     }
@@ -176,7 +185,8 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
   out.null = nulls_of(nothing.ratio, rarity);
   const auto component = nulls_of(nothing.scatter);
-  const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared, freedom,
+  const double drawn_variance = steps ? nothing.variance_without_scatter.mean() : out.data.variance_without_scatter[0];
+  const NoiseSize size(scan, out.data, nothing, std::sqrt(drawn_variance) * out.noise_shape.core(), declared, freedom,
                        repeats ? repeats->step : 0);
   out.p_noise = size.p();
   out.noise_small = size.judged() && 1 - out.p_noise < criteria.noise_small_p;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "tracing/fit/scan.h"
+#include "tracing/noise/coarse_steps.h"
 #include "tracing/noise/pure_error.h"
 
 namespace gumshoe::tracing {
@@ -45,6 +46,7 @@ struct Repeats {
   std::vector<std::size_t> block; ///< by row of the scan; empty: no blocks
   std::size_t blocks = 0;
   double step = 0; ///< in which readings were recorded, in units of the design's noise; 0: not known
+  CoarseSteps steps = {}; ///< in which draws are read as well
 };
 
 /// Assesses one data set (residuals of the scan's rows, SI) against 2 x `draws` sets of the fitted noise.

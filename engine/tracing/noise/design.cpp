@@ -37,6 +37,13 @@ double least_scale(const Design& d, const std::vector<Index>& rows) {
   return std::sqrt(squares / 12 / static_cast<double>(rows.size()));
 }
 
+double hidden_squares(const Design& d, const std::vector<Index>& rows) {
+  if (d.coarse.empty()) return 0;
+  double out = 0;
+  for (const Index row : rows) out += std::pow(d.coarse[index(row) % d.indications] / noise_of_row(d, row), 2) / 12;
+  return out;
+}
+
 std::vector<Index> insensitive(const Design& d, const std::vector<Index>& rows) {
   std::vector<Index> out;
   for (Index j = 0; j < d.fixed.cols(); ++j)

@@ -31,6 +31,7 @@ struct Design {
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
   std::vector<double> step;      ///< by indication: in which its readings were recorded; empty: not known
+  std::vector<double> coarse;    ///< by indication: the step, if readings scatter so little that rounding repeats, or 0
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
   std::vector<CovarianceModel> covariance_models; ///< those that are tried; empty: all
 };
@@ -42,6 +43,10 @@ double noise_of_row(const Design& design, Index row);
 /// of their noise: their root mean square. No robust scale may be less, or most residuals could be equal and the others
 /// outliers.
 double least_scale(const Design& design, const std::vector<Index>& rows);
+
+/// Sum of squares of the chosen rows, in units of the noise, that coarse steps may hide: a reading is not known better
+/// than to q / sqrt(12), however well it comes back (JCGM 100, F.2.2.1). 0 where no step is coarse.
+double hidden_squares(const Design& design, const std::vector<Index>& rows);
 
 /// Columns of Design::fixed that the chosen rows can distinguish, in the order in which they are declared: a column
 /// that earlier ones explain is left out.

@@ -64,6 +64,7 @@ Matrix Whitened::draw(const Draws& draws, std::uint64_t seed, const NoiseShape& 
     const Matrix& local = design_.straight.empty() ? design_.local[place] : design_.straight[place];
     out.middleRows(i, k) = (local.triangularView<Eigen::Lower>() * out.middleRows(i, k)).eval();
   }
+  for (Index i = 0; i < out.rows() && !shape.own.empty(); ++i) out.row(i) *= shape.own[index(i % k)];
   if (design_.random.cols() > 0) add_declared(draws, seed, out);
   add_scatter(draws, seed, shape, out);
   return out;

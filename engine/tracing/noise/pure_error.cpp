@@ -239,8 +239,11 @@ Vector PureError::lack_of_fit(const Matrix& residuals) const {
   const Matrix clean = cleaned(residuals).data;
   const Vector before = squares(without_, clean), after = squares(with_, clean);
   Vector out(before.size());
+  const double hidden = hidden_squares(design_, rows_);
   for (Index j = 0; j < out.size(); ++j)
-    out[j] = after[j] > 0 ? freedom(without_) * std::max(0.0, std::log(before[j] / after[j])) : 0;
+    out[j] = after[j] + hidden > 0
+                 ? freedom(without_) * std::max(0.0, std::log((before[j] + hidden) / (after[j] + hidden)))
+                 : 0;
   return out;
 }
 

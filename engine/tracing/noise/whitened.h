@@ -16,7 +16,8 @@ struct NoiseShape {
   std::vector<double> sizes; ///< their sizes, in standard deviations of the others
   /// Rows x nodes: response of each reading to a draw bend_node(j) of the variance component, in SI at scale 1; empty:
   /// as in the covariance model.
-  Matrix scatter;
+  Matrix scatter = {};
+  std::vector<double> own = {}; ///< by indication, factor of the noise of single readings; empty: 1
 
   /// Ratio of the standard deviation of the readings that are not outlying to that of all, winsorised like data.
   double core() const;
@@ -72,6 +73,8 @@ public:
   Matrix draw(const Draws& draws, std::uint64_t seed, const NoiseShape& shape = {}) const;
   const std::vector<Index>& rows() const { return rows_; }
   std::size_t degrees_of_freedom() const { return rows_.size() - use_.size(); }
+  /// As hidden_squares() of the design, whitened.
+  double hidden_squares() const { return hidden_squares_; }
 
 private:
   /// Fixed, then random columns, in units of the noise of readings.
@@ -95,7 +98,7 @@ private:
   std::shared_ptr<const Columns> columns_;
   std::optional<Innovations> scatter_;
   std::shared_ptr<const Elimination> elimination_; ///< of the columns and the component
-  double log_determinant_ = 0;
+  double log_determinant_ = 0, hidden_squares_ = 0;
 };
 
 /// Robust standard deviation by absolute residuals, which it sorts in part: by their median, unless more than a tenth

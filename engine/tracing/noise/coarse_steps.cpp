@@ -1,0 +1,66 @@
+#include "tracing/noise/coarse_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "random/streams.h"
+
+namespace gumshoe::tracing {
+
+double scatter_read(double noise, double step) {
+  using std::numbers::pi;
+  // Terms of the series fall as exp(-k^2 t^2): where t is small, as many as still count.
+  const double t = 2 * pi * noise / step;
+  if (!(t > 1e-3)) return step * std::sqrt(noise / step / std::sqrt(pi)); // the series of erfc to its first term
+  double mean = 0;
+  for (double k = 1; k * t < 6.5; ++k) mean += std::exp(-k * k * t * t) / (2 * pi * pi * k * k);
+  return step * std::sqrt(std::max(0.0, noise * noise / step / step + 1.0 / 12 - mean));
+}
+
+double noise_before_steps(double scatter, double step) {
+  if (!(scatter > 0)) return 0;
+  const auto above = [&](double noise) { return scatter_read(noise, step) - scatter; };
+  std::uintmax_t most = 100;
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(above, 0.0, scatter + step, boost::math::tools::eps_tolerance<double>(30), most);
+  return (low + high) / 2;
+}
+
+/// Readings that are all equal do not show that they have no noise: while one in all is expected to be off by a step, it
+/// is likely that none is. It leaves half the square of a step about the mean of two.
+CoarseSteps::CoarseSteps(const Design& d, Vector predicted, double scatter, double freedom)
+    : predicted_(std::move(predicted)) {
+  for (std::size_t k = 0; k < d.coarse.size(); ++k) {
+    const double q = d.coarse[k], s = std::hypot(scatter * d.reference[k], q / std::sqrt(2 * freedom));
+    step_.push_back(q);
+    noise_.push_back(q > 0 ? noise_before_steps(s, q) / d.reference[k] : scatter);
+  }
+}
+
+std::vector<double> CoarseSteps::share(double s) const {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < noise_.size(); ++k) out.push_back(step_[k] > 0 ? noise_[k] / s : 1);
+  return out;
+}
+
+Matrix CoarseSteps::read(Matrix drawn, const Draws& draws, std::uint64_t seed) const {
+  const auto indications = index(noise_.size());
+  std::vector<double> place((draws.count + 1) / 2 * 2);
+  for (Index k = 0; k < indications; ++k) {
+    const double q = step_[index(k)];
+    if (!(q > 0)) continue;
+    random::uniforms({seed, static_cast<std::uint32_t>(k + 1), 6, 0}, draws.first, place.size(), place.data());
+    for (Index j = 0; j < drawn.cols(); ++j)
+      for (Index i = k; i < drawn.rows(); i += indications) {
+        const double value = predicted_[i] + q * place[index(j)];
+        drawn(i, j) = q * std::round((value + drawn(i, j)) / q) - value;
+      }
+  }
+  return drawn;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,39 @@
+#pragma once
+/// Noise as a coarse display shows it.
+///
+/// Where the noise is less than half a step, readings of one place come back with one deviation, and rounding looks
+/// like an effect. Draws of the noise that are read in the same steps hold as much of that as the data do.
+#include "tracing/noise/whitened.h"
+
+namespace gumshoe::tracing {
+
+/// Root mean square scatter, about their mean, of readings of one place whose normal noise is `noise`, read in steps q;
+/// over all places between two steps:
+///   s^2 = noise^2 + q^2 / 12 - sum over k >= 1 of q^2 / (2 pi^2 k^2) exp(-4 pi^2 k^2 noise^2 / q^2),
+/// the variance of noise and rounding less that of their mean, whose Fourier series this is.
+double scatter_read(double noise, double step);
+/// The noise of which readings in these steps scatter so. 0 <= scatter <= step
+double noise_before_steps(double scatter, double step);
+
+/// The steps of some readings and the values that the model has there.
+class CoarseSteps {
+public:
+  /// No reading has coarse steps.
+  CoarseSteps() = default;
+  /// @param predicted  values of the chosen rows by the model, SI
+  /// @param scatter    of readings of one place, in units of the design's noise, and its degrees of freedom
+  CoarseSteps(const Design& design, Vector predicted, double scatter, double freedom);
+
+  bool any() const { return !noise_.empty(); }
+  /// By indication, the standard deviation of the noise before it is read over `s` times that of the design.
+  std::vector<double> share(double s) const;
+  /// Draws (chosen rows x sets, SI) as they are read. Where between two steps the values lie is drawn, too.
+  Matrix read(Matrix drawn, const Draws& draws, std::uint64_t seed) const;
+
+private:
+  std::vector<double> noise_; ///< by indication, before it is read, in units of the design's noise; all 0: none coarse
+  std::vector<double> step_;  ///< by indication, SI; 0: not coarse
+  Vector predicted_;
+};
+
+} // namespace gumshoe::tracing
