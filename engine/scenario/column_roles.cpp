@@ -36,6 +36,33 @@ bool numbers_rows(const RecognisedData& data, const RecognisedColumn& c) {
   return std::ranges::adjacent_find(data.csv.rows, std::greater_equal{}, value) == data.csv.rows.end();
 }
 
+/// Whether it is known, by more than the word "set", to be where readings were taken.
+bool is_known_place(const RecognisedColumn& c) {
+  const auto words = words_of(c.name);
+  const bool named = c.role == ColumnRole::position && c.basis == Basis::name && std::ranges::count(words, "set") == 0;
+  return c.number && is_place(c) && (named || (c.role == ColumnRole::other && c.unit != "?"));
+}
+
+/// Whether whole numbers without a unit count stretches of rows, 1 1 1 2 2 2, in each of which a place comes back to
+/// the same values: a "set", a "start".
+bool numbers_passes(const RecognisedData& data, const RecognisedColumn& c) {
+  const bool named_set = c.role == ColumnRole::position && std::ranges::count(words_of(c.name), "set") > 0;
+  if (!c.number || c.gaps || c.unit != "?" || !(named_set || c.role == ColumnRole::other)) return false;
+  const auto at = static_cast<std::size_t>(data.csv.find(c.name));
+  std::vector<double> number;
+  for (const auto& row : data.csv.rows) number.push_back(data.csv.number(row[at], data.decimal));
+  for (std::size_t r = 0; r < number.size(); ++r)
+    if (number[r] != std::floor(number[r]) || (r > 0 && number[r] != number[r - 1] && number[r] != number[r - 1] + 1))
+      return false;
+  return std::ranges::any_of(data.columns, [&](const RecognisedColumn& place) {
+    if (&place == &c || !is_known_place(place) || different(data, place) < 2) return false;
+    const auto where = static_cast<std::size_t>(data.csv.find(place.name));
+    std::map<double, std::set<std::string>> met;
+    for (std::size_t r = 0; r < number.size(); ++r) met[number[r]].insert(data.csv.rows[r][where].text);
+    return met.size() > 1 && std::ranges::all_of(met, [&](const auto& m) { return m.second == met.begin()->second; });
+  });
+}
+
 /// Share of a column's variance that a straight line in another explains; 0 of a constant.
 double follows(const RecognisedData& data, const RecognisedColumn& column, const RecognisedColumn& other) {
   const auto at = static_cast<std::size_t>(data.csv.find(column.name)),
@@ -114,6 +141,13 @@ void guess_roles(RecognisedData& data) {
     };
     if (std::ranges::none_of(columns, like)) c.leave();
   }
+  if (!has(ColumnRole::cycle))
+    for (RecognisedColumn& c : columns)
+      if (numbers_passes(data, c)) {
+        c.take(ColumnRole::cycle, Basis::cells, "as it numbers passes over the same places");
+        c.unit = "1";
+        break;
+      }
   // A pressure next to a target is no second position.
   for (bool known = false; RecognisedColumn & c : columns)
     if (c.role == ColumnRole::position && std::exchange(known, true) && c.basis == Basis::name) c.leave();

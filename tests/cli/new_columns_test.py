@@ -87,6 +87,20 @@ class NewColumns(Starter):
         (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
         self.assertNotIn("position", self.new("--from", "s.csv"))
 
+    def test_whole_numbers_that_count_passes_are_no_position(self):
+        """A set, a start, whatever it is called: in each the same places come back. Of one place each it is a position."""
+        for name, place, cycle in (("set", "pos_mm", True), ("start", "x_mm", True), ("Nummer", "Soll [N]", True), ("set", "feed_mm_min", False)):
+            with self.subTest((name, place)):
+                rows = [f"{name},{place},dev_um"] + [f"{s},{x},{(7 * s + x // 20) % 5 / 10}" for s in range(1, 6) for x in range(0, 60, 10)]
+                (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+                said = self.new("--from", "p.csv", "--force")
+                self.assertEqual(f"{name}: cycle (as it numbers passes over the same places)" in said, cycle, said)
+                if cycle:
+                    self.assertIn(f"{place}: position", said)
+        rows = ["set,d_um,x_mm"] + [f"{s},{(3 * s + k) % 5 / 10},{10 * s}" for s in range(1, 6) for k in range(4)]
+        (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+        self.assertNotIn("set: cycle", self.new("--from", "p.csv", "--force"))
+
     def test_days_are_a_time(self):
         """A check standard, measured once a week: the day tells its drift. Where it says nothing, new says why."""
         draw = random.Random(3)
