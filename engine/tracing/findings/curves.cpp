@@ -202,6 +202,17 @@ public:
                   empty_.indication_si_unit);
   }
 
+  /// "4.2 um, u = 0.3 um" by which the readings with the lowest and the highest value differ at most.
+  std::string reach() const {
+    const Matrix columns =
+        term_.candidate.columns(Eigen::seq(index(indication_), Eigen::last, index(o_.indications)), Eigen::all);
+    const Vector y = columns * term_.size;
+    Index low = 0, high = 0;
+    const double most = y.maxCoeff(&high) - y.minCoeff(&low);
+    const Vector apart = (columns.row(high) - columns.row(low)).transpose();
+    return with_u(most, std::sqrt(std::max(0.0, apart.dot(covariance_ * apart))), unit_, empty_.indication_si_unit);
+  }
+
   /// By all of these together, if there are two readings of each combination or more; else without rows.
   CellTable by(const std::vector<const Covariate*>& covariates, const std::vector<const Grouping*>& labels) const {
     std::map<std::vector<double>, std::vector<std::size_t>> cells; // in the order of the keys: reproducible
@@ -309,6 +320,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
   }
   if (covariates.empty() && labels.empty()) return;
   const bool of_one = covariates.size() + labels.size() == 1;
+  const std::size_t remarks = finding.remarks.size();
   const auto sense = sense_of(fit.terms[term].candidate, covariates, c.observations);
   if (sense) covariates.push_back(&*sense);
   CellTable table = make.by(covariates, labels);
@@ -336,6 +348,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
                                           quantities::text_of(shape.amplitudes[0].labels), covariates[0]->name,
                                           make.slope(*covariates[0])));
   }
+  if (finding.remarks.size() == remarks) finding.remarks.push_back("it makes readings differ by up to " + make.reach());
   if (!table.y.empty()) finding.tables.push_back(std::move(table));
 }
 
