@@ -86,11 +86,34 @@ TEST_CASE("a step is found between the readings between which it was made", "[tr
     Vector step = Vector::Zero(static_cast<Index>(count));
     step.tail(step.size() - from).setOnes();
     const auto found = courses_of(o, step);
-    REQUIRE(found.size() == 4); // time is the only course; a drift comes first
+    REQUIRE(found.size() == 5); // time is the only course; a drift comes first, and one is of a part
     step.array() -= step.mean();
     CHECK(found[1].name ==
           "step:time after reading " + std::to_string(o.sequence[static_cast<std::size_t>(from - 1)] + 1));
     CHECK((found[1].columns.array() - found[1].columns.mean() - step.array()).matrix().norm() < 1e-12);
+  }
+}
+
+TEST_CASE("a step of one part is found between two of its readings", "[tracing]") {
+  const Observations o = made();
+  REQUIRE(part_labels(o).size() == 1);
+  const Grouping& label = *part_labels(o)[0];
+  for (std::size_t group = 0; group < label.groups.size(); ++group) {
+    std::vector<std::size_t> own; // places of its readings
+    for (std::size_t i = 0; i < count; ++i)
+      if (label.group[o.sequence[i]] == group) own.push_back(i);
+    REQUIRE(own.size() > 4);
+    for (const std::size_t before : {std::size_t{2}, own.size() / 2, own.size() - 2}) { // readings before it
+      Vector step = Vector::Zero(static_cast<Index>(count));
+      for (std::size_t i = before; i < own.size(); ++i) step[static_cast<Index>(own[i])] = 1;
+      const auto found = courses_of(o, step);
+      const std::string reading = std::to_string(o.sequence[own[before - 1]] + 1);
+      const Candidate& one = named(found, "step:time with " + label.groups[group] + " after reading " + reading);
+      CHECK((one.columns - step).norm() == 0);
+      CHECK(one.depends_on == std::vector<std::string>{"time", label.name});
+      CHECK(one.rare());
+      CHECK(one.searched == static_cast<double>(count - 3 * label.groups.size())); // two before and two after, in each
+    }
   }
 }
 

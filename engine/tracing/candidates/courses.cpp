@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -22,27 +23,42 @@ std::string shown(const Covariate& c, double si) {
   return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), units::suffix(c.unit));
 }
 
+/// Some of the groups of a label: all readings, or those of one part.
+struct Members {
+  const Grouping* label = nullptr; ///< null: all readings
+  std::size_t group = 0;
+  bool holds(std::size_t reading) const { return !label || label->group[reading] == group; }
+};
+
+/// From this place in the sequence on, of all readings or those of one part.
+struct Instant {
+  Index from = 0;
+  Members part = {};
+  bool operator==(const Instant& other) const { return from == other.from && part.label == other.part.label; }
+};
+
 /// The step between two successive readings of one indication.
 class Steps {
 public:
   Steps(const Observations& o, std::size_t indication) : o_(o), indication_(index(indication)) {}
 
-  /// From each of these places in the sequence on.
-  Matrix columns(const std::vector<Index>& from) const {
+  Matrix columns(std::span<const Instant> instants) const {
     const Index n = index(o_.readings), k = index(o_.indications);
-    Matrix out = Matrix::Zero(n * k, index(from.size()));
-    for (Index j = 0; j < out.cols(); ++j)
-      for (Index r = from[static_cast<std::size_t>(j)]; r < n; ++r) out(r * k + indication_, j) = 1;
+    Matrix out = Matrix::Zero(n * k, index(instants.size()));
+    for (Index j = 0; j < out.cols(); ++j) {
+      const auto& [from, part] = instants[static_cast<std::size_t>(j)];
+      for (Index r = from; r < n; ++r)
+        if (part.holds(o_.sequence[index(r)])) out(r * k + indication_, j) = 1;
+    }
     return out;
   }
 
   /// The one that explains most.
-  Index best(const std::vector<Index>& places, const Gain& gain) const {
-    Index found = places.front();
+  Instant best(const std::vector<Instant>& places, const Gain& gain) const {
+    Instant found = places.front();
     double height = -1;
     for (std::size_t i = 0; i < places.size(); i += at_once) {
-      const std::vector<Index> some(places.begin() + index(i),
-                                    places.begin() + index(std::min(places.size(), i + at_once)));
+      const auto some = std::span(places).subspan(i, std::min<std::size_t>(at_once, places.size() - i));
       Index highest = 0;
       const double here = gain(columns(some), 1, criteria.absorbed_share).maxCoeff(&highest);
       if (here > height) height = here, found = some[static_cast<std::size_t>(highest)];
@@ -55,22 +71,34 @@ private:
   Index indication_;
 };
 
-/// Places in the sequence where a step may begin, with a few fitted readings before and after.
-std::vector<Index> instants(const Observations& o, const std::vector<Index>& rows) {
+/// Places in the sequence where a step may begin, with a few fitted readings before and after; of a part, whose
+/// readings seldom follow one another, with two of its own.
+std::vector<Instant> instants(const Observations& o, const std::vector<Index>& rows, const Members& part = {}) {
   std::vector<Index> fitted;
   for (const Index row : rows)
-    if (const Index reading = row / index(o.indications); fitted.empty() || fitted.back() != reading)
-      fitted.push_back(reading);
-  const std::size_t few = static_cast<std::size_t>(criteria.few_readings) + 1;
-  if (fitted.size() < 2 * few) return {};
-  return {fitted.begin() + index(few), fitted.end() - index(few) + 1};
+    if (const Index place = row / index(o.indications);
+        part.holds(o.sequence[index(place)]) && (fitted.empty() || fitted.back() != place))
+      fitted.push_back(place);
+  const std::size_t few = part.label ? criteria.least_repeats : static_cast<std::size_t>(criteria.few_readings) + 1;
+  std::vector<Instant> out;
+  for (std::size_t i = few; i + few <= fitted.size(); ++i) out.push_back({fitted[i], part});
+  return out;
+}
+
+/// Of each part in turn: one tool was hit, one artefact slipped.
+std::vector<Instant> instants_of_parts(const Observations& o, const std::vector<Index>& rows, const Grouping& label) {
+  std::vector<Instant> out;
+  for (std::size_t g = 0; g < label.groups.size(); ++g)
+    std::ranges::copy(instants(o, rows, {&label, g}), std::back_inserter(out));
+  return out;
 }
 
 /// Those at which a block begins.
-std::vector<Index> beginnings_of_blocks(const Observations& o, const std::vector<Index>& places) {
-  std::vector<Index> out;
-  for (const Index at : places)
-    if (!o.blocks.group.empty() && o.blocks.group[o.sequence[index(at)]] != o.blocks.group[o.sequence[index(at - 1)]])
+std::vector<Instant> beginnings_of_blocks(const Observations& o, const std::vector<Instant>& places) {
+  std::vector<Instant> out;
+  for (const Instant& at : places)
+    if (!o.blocks.group.empty() &&
+        o.blocks.group[o.sequence[index(at.from)]] != o.blocks.group[o.sequence[index(at.from - 1)]])
       out.push_back(at);
   return out;
 }
@@ -225,7 +253,7 @@ Candidate drift(const Observations& o, const Covariate& c, std::size_t indicatio
 
 std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& rows, const Gain& gain) {
   std::vector<Candidate> out;
-  const std::vector<Index> places = instants(o, rows);
+  const std::vector<Instant> places = instants(o, rows);
   for (const Covariate& c : o.covariates)
     for (std::size_t i = 0; c.course && !places.empty() && i < o.indications; ++i) {
       const double share = Drifts(o, c, i).best(gain);
@@ -233,16 +261,28 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       out.back().searched = criteria.drift_forms;
       if (c.comes_back) continue; // what happened at one instant, happened once
       const Steps steps(o, i);
-      const Index from = steps.best(places, gain);
-      const auto step = [&](Index at) {
-        const std::size_t reading = o.sequence[static_cast<std::size_t>(at - 1)] + 1;
-        out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({at})));
-        out.back().searched = static_cast<double>(places.size());
+      const auto step = [&](const Instant& at, const std::string& of, std::size_t among) {
+        Index before = at.from - 1;
+        while (!at.part.holds(o.sequence[index(before)])) --before;
+        out.push_back(shape(o, c, i,
+                            fmt::format("step:{}{} after reading {}", c.name, of, o.sequence[index(before)] + 1),
+                            steps.columns({&at, 1})));
+        out.back().searched = static_cast<double>(among);
       };
-      step(from);
+      const Instant from = steps.best(places, gain);
+      step(from, "", places.size());
       // One that begins with a block may be what differs there (shape_order.h).
-      if (const std::vector<Index> beginnings = beginnings_of_blocks(o, places); !beginnings.empty())
-        if (const Index beginning = steps.best(beginnings, gain); beginning != from) step(beginning);
+      if (const std::vector<Instant> beginnings = beginnings_of_blocks(o, places); !beginnings.empty())
+        if (const Instant beginning = steps.best(beginnings, gain); !(beginning == from))
+          step(beginning, "", places.size());
+      for (const Grouping* label : part_labels(o)) {
+        const std::vector<Instant> of_parts = instants_of_parts(o, rows, *label);
+        if (of_parts.empty()) continue;
+        const Instant at = steps.best(of_parts, gain);
+        step(at, " with " + label->groups[at.part.group], of_parts.size());
+        out.back().depends_on.push_back(label->name);
+        out.back().amplitudes[0].labels = {{label->name, label->values[at.part.group][0]}};
+      }
       const double range = c.levels.back() - c.levels.front();
       const auto place = [&](const char* kind, double (*profile)(double), double length_of_width) {
         const Placed all(o, c, i, profile);

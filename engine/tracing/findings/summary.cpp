@@ -54,6 +54,12 @@ std::string reading_of(const std::string& shape, const std::string& kind, const 
 }
 /// The reading after which the readings differ by a constant.
 std::string instant_of(const std::string& shape) { return reading_of(shape, "step:", " after "); }
+/// "tool T3" of "step:time with tool T3 after reading 27", which alone differs from then on; empty of any other shape.
+std::string part_of_step(const std::string& shape) {
+  const auto with = shape.find(" with "), after = shape.find(" after ");
+  if (!shape.starts_with("step:") || with == std::string::npos || after == std::string::npos) return "";
+  return shape.substr(with + 6, after - with - 6);
+}
 /// The reading about which something came and went.
 std::string pulse_of(const std::string& shape) { return reading_of(shape, "pulse:", " about "); }
 /// The reading about which they went over to other values.
@@ -139,6 +145,9 @@ std::string what_was_found(const Finding& f, const std::string& of) {
     if (const std::string condition = reversed_condition(f); !condition.empty())
       return fmt::format(
           "The readings differ between rising and falling {}, and no effect of the catalogue explains it.", condition);
+    if (const std::string part = part_of_step(f.described_by); !part.empty())
+      return fmt::format("Something changed with {} after {}: from then on {} with it differ by a constant.", part,
+                         instant_of(f.described_by), readings);
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
       return fmt::format("Something changed after {}: from then on {} differ by a constant.", reading, readings);
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
@@ -172,7 +181,10 @@ std::string briefly(const Finding& f) {
   case Kind::not_in_catalogue:
     if (const std::string condition = reversed_condition(f); !condition.empty())
       return "a difference between rising and falling " + condition;
-    if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
+    if (const std::string reading = instant_of(f.described_by); !reading.empty()) {
+      const std::string part = part_of_step(f.described_by);
+      return fmt::format("a step{} after {}", part.empty() ? "" : " of " + part, reading);
+    }
     if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
       return "a gradual step about " + reading;

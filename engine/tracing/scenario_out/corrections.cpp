@@ -90,7 +90,7 @@ std::optional<StraightLine> line_of(const std::map<double, double>& rows) {
 }
 
 /// A group's own dependence on a condition over the levels it met, by one column of the loading. Where other groups
-/// went beyond them, a line goes on; of anything else it is empty.
+/// went beyond them, a line goes on, and so does what a step left; of anything else it is empty.
 std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loading, const Grouping& g,
                                      const std::string& condition, Correction out) {
   const Observations& o = c.observations;
@@ -105,8 +105,12 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
   const auto& levels = keys[0]->levels;
   if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) {
     const auto line = line_of(rows);
-    if (!line) return std::nullopt;
-    for (const double end : {levels.front(), levels.back()}) rows.try_emplace(end, (*line)(end));
+    const bool step = out.shape.starts_with("step:");
+    if (!line && !step) return std::nullopt;
+    const double first = step ? rows.begin()->second : (*line)(levels.front()),
+                 last = step ? rows.rbegin()->second : (*line)(levels.back());
+    rows.try_emplace(levels.front(), first);
+    rows.try_emplace(levels.back(), last);
   }
   out.keys = {{keys[0]->name, keys[0]->unit, keys[0]->si_unit, {}}};
   for (const auto& [level, here] : rows) {
