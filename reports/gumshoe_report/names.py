@@ -63,7 +63,9 @@ def readable(name, shape=""):
     """A candidate as a reader says it; `shape`: what was held fixed of it."""
     family, colon, rest = name.partition(":")
     if family == "step" and " after " in rest:
-        return f"step after {rest.partition(' after ')[2]}"
+        course, _, reading = rest.partition(" after ")
+        part = course.partition(" with ")[2]
+        return f"step of {of_label(part)} after {reading}" if part else f"step after {reading}"
     if family in ("pulse", "shift") and " about " in rest:
         return f"{'pulse' if family == 'pulse' else 'gradual step'} about {rest.partition(' about ')[2]}"
     if family == "polynomial" and shape.startswith("square"):

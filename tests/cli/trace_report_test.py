@@ -410,6 +410,8 @@ class Words(unittest.TestCase):
         for name, said in (("step:tool_id T_2", "offset of tool id T_2"), ("step:tool_id T_2 with direction 1", "offset of tool id T_2 with direction 1"),
                            ("product:rail_position*tool_id T_2", "product of rail position and tool id T_2"),
                            ("product:x*box a_b*c", "product of x and box a_b*c"),
+                           ("step:time with tool_id T_2 after reading 14", "step of tool id T_2 after reading 14"),
+                           ("step:time after reading 14", "step after reading 14"),
                            ("declared:rod_length[rod R_2]", "length of rod R_2 (declared)"),
                            ("declared:tool_id_offset[tool_id T_2]", "offset of tool id T_2 (declared)")):
             self.assertEqual(names.readable(name), said)

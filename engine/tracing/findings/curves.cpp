@@ -60,11 +60,14 @@ public:
     out.unit = covariate.unit;
     out.si_unit = covariate.si_unit;
     const auto group = neighbours(covariate, criteria.most_curve_points);
+    std::vector<std::size_t> own = group; // of what acts on one part alone: that part's
+    for (std::size_t r = 0; r < own.size(); ++r)
+      if (!quantities::holds_for(term_.candidate.amplitudes[0].labels, readings_[r].labels)) own[r] = none;
     for (std::size_t g = 0; g <= *std::ranges::max_element(group); ++g) {
       double sum = 0, count = 0;
-      for (std::size_t r = 0; r < group.size(); ++r)
-        if (group[r] == g) sum += covariate.value[r], ++count;
-      if (count > 0) add(sum / count, group, g, out);
+      for (std::size_t r = 0; r < own.size(); ++r)
+        if (own[r] == g) sum += covariate.value[r], ++count;
+      if (count > 0) add(sum / count, own, g, out);
     }
     return out;
   }
@@ -250,6 +253,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t none = ~std::size_t{0}; ///< no group
+
   /// The mean over the training readings of a group, if there are any.
   bool add(double x, const std::vector<std::size_t>& group, std::size_t which, Curve& out) const {
     const Matrix& columns = term_.candidate.columns;
