@@ -47,6 +47,7 @@ bool is_known_place(const RecognisedColumn& c) {
 /// the same values: a "set", a "start".
 bool numbers_passes(const RecognisedData& data, const RecognisedColumn& c) {
   const bool named_set = c.role == ColumnRole::position && std::ranges::count(words_of(c.name), "set") > 0;
+  if (names_parts(c) || is_circumstance(c) || counts_rows(c)) return false;
   if (!c.number || c.gaps || c.unit != "?" || !(named_set || c.role == ColumnRole::other)) return false;
   const auto at = static_cast<std::size_t>(data.csv.find(c.name));
   std::vector<double> number;

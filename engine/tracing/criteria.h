@@ -34,6 +34,9 @@ struct Criteria {
   /// Share of a display's step below which the scatter of repeated readings leaves rounding that repeats: at half a
   /// step, what it leaves is 1 % of one.
   double coarse = 0.5;
+  /// So many different readings show the step in which they were recorded; of fewer, two in one cell must differ: 0 and
+  /// 10 um may be readings in steps of 1 um.
+  std::size_t values_of_steps = 4;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
   /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one

@@ -89,7 +89,8 @@ class NewColumns(Starter):
 
     def test_whole_numbers_that_count_passes_are_no_position(self):
         """A set, a start, whatever it is called: in each the same places come back. Of one place each it is a position."""
-        for name, place, cycle in (("set", "pos_mm", True), ("start", "x_mm", True), ("Nummer", "Soll [N]", True), ("set", "feed_mm_min", False)):
+        for name, place, cycle in (("set", "pos_mm", True), ("start", "x_mm", True), ("Nummer", "Soll [N]", True), ("set", "feed_mm_min", False),
+                                   ("tool_no", "x_mm", False), ("operator", "x_mm", False), ("insert", "x_mm", False), ("speed", "x_mm", False)):
             with self.subTest((name, place)):
                 rows = [f"{name},{place},dev_um"] + [f"{s},{x},{(7 * s + x // 20) % 5 / 10}" for s in range(1, 6) for x in range(0, 60, 10)]
                 (self.folder / "p.csv").write_text("\n".join(rows) + "\n")

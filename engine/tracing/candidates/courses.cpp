@@ -23,7 +23,7 @@ std::string shown(const Covariate& c, double si) {
   return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), units::suffix(c.unit));
 }
 
-/// Some of the groups of a label: all readings, or those of one part.
+/// All readings, or those of one part.
 struct Members {
   const Grouping* label = nullptr; ///< null: all readings
   std::size_t group = 0;
@@ -34,6 +34,7 @@ struct Members {
 struct Instant {
   Index from = 0;
   Members part = {};
+  /// A reading is of one part of a label.
   bool operator==(const Instant& other) const { return from == other.from && part.label == other.part.label; }
 };
 

@@ -205,10 +205,12 @@ public:
                   empty_.indication_si_unit);
   }
 
-  /// "4.2 um, u = 0.3 um" by which the readings with the lowest and the highest value differ at most.
+  /// "4.2 um, u = 0.3 um": the largest difference that it makes between two training readings.
   std::string reach() const {
-    const Matrix columns =
-        term_.candidate.columns(Eigen::seq(index(indication_), Eigen::last, index(o_.indications)), Eigen::all);
+    std::vector<Index> rows;
+    for (std::size_t i = 0; i < o_.readings; ++i)
+      if (!o_.held_out[o_.sequence[i]]) rows.push_back(index(i * o_.indications + indication_));
+    const Matrix columns = term_.candidate.columns(rows, Eigen::all);
     const Vector y = columns * term_.size;
     Index low = 0, high = 0;
     const double most = y.maxCoeff(&high) - y.minCoeff(&low);

@@ -57,7 +57,7 @@ std::string instant_of(const std::string& shape) { return reading_of(shape, "ste
 /// "tool T3" of "step:time with tool T3 after reading 27", which alone differs from then on; empty of any other shape.
 std::string part_of_step(const std::string& shape) {
   const auto with = shape.find(" with "), after = shape.find(" after ");
-  if (!shape.starts_with("step:") || with == std::string::npos || after == std::string::npos) return "";
+  if (!shape.starts_with("step:") || with == std::string::npos || after == std::string::npos || after < with) return "";
   return shape.substr(with + 6, after - with - 6);
 }
 /// The reading about which something came and went.

@@ -303,12 +303,16 @@ void Fitter::find_coarse() {
   const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known()) return;
   const double scatter = pure.scale(fit.residual(rows_))[0];
-  std::vector<double> steps;
   for (std::size_t k = 0; k < observations_.indications; ++k) {
-    const double step = observations_.step[k];
-    steps.push_back(scatter * fit.design.reference[k] < criteria.coarse * step ? step : 0);
+    const double s = scatter * fit.design.reference[k], step = observations_.step[k];
+    std::set<double> values;
+    for (std::size_t r = 0; r < observations_.readings; ++r)
+      values.insert(observations_.measured[r * observations_.indications + k]);
+    constexpr double rounding = 1e-6; // of a step: readings that come back are all equal
+    const bool shown = s > rounding * step || values.size() >= criteria.values_of_steps;
+    if (!(shown && s < criteria.coarse * step)) return;
   }
-  if (std::ranges::any_of(steps, [](double step) { return step > 0; })) coarse_ = std::move(steps);
+  coarse_ = observations_.step;
 }
 
 std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
@@ -323,7 +327,10 @@ std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
     std::vector<double> x; // second differences: of what is smooth in time little is left
     for (Index row = i; row + 2 * k < about.rows(); row += k)
       x.push_back((about(row, 0) - 2 * about(row + k, 0) + about(row + 2 * k, 0)) / std::sqrt(6.0));
-    out.size[i] = scale_of(std::move(x));
+    // Equal readings are no noise of zero: what rounding of numbers leaves would be the scale.
+    const auto k_i = index(i);
+    out.size[i] =
+        std::max(scale_of(std::move(x)), observations_.step[k_i] / std::sqrt(12.0) / fit.design.reference[k_i]);
   }
   if (!(out.size.minCoeff() > 0)) return std::nullopt;
   // The median has 0.37 of the information of the mean square, and second differences about half of the readings'.

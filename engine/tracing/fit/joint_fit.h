@@ -182,7 +182,8 @@ private:
   /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
   void find_covariance_models();
-  /// Which indications were read in steps so coarse that rounding repeats, by the scatter of readings that come back.
+  /// Whether readings were recorded in steps so coarse that rounding repeats, by the scatter of readings that come
+  /// back: of several indications, all of them.
   void find_coarse();
   /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
   struct Scatter {

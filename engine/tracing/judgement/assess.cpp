@@ -65,7 +65,8 @@ public:
     spread_ = std::sqrt((first.array() - middle_).square().mean());
     // A declared s of nu degrees of freedom has a relative uncertainty of 1 / sqrt(2 nu) itself.
     spread_of_data_ = std::sqrt(spread_ * spread_ + 1 / (2 * freedom));
-    judged_ = declared > 0 && spread_ > 0;
+    constexpr double alike = 1e-6; // of readings in coarse steps most draws may be equal but for rounding
+    judged_ = declared > 0 && spread_ > alike;
     if (judged_) observed_ = std::log(observed / declared);
   }
   bool judged() const { return judged_; } ///< a noise is declared

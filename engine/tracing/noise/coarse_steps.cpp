@@ -37,13 +37,13 @@ CoarseSteps::CoarseSteps(const Design& d, Vector predicted, double scatter, doub
   for (std::size_t k = 0; k < d.coarse.size(); ++k) {
     const double q = d.coarse[k], s = std::hypot(scatter * d.reference[k], q / std::sqrt(2 * freedom));
     step_.push_back(q);
-    noise_.push_back(q > 0 ? noise_before_steps(s, q) / d.reference[k] : scatter);
+    noise_.push_back(noise_before_steps(s, q) / d.reference[k]);
   }
 }
 
 std::vector<double> CoarseSteps::share(double s) const {
   std::vector<double> out;
-  for (std::size_t k = 0; k < noise_.size(); ++k) out.push_back(step_[k] > 0 ? noise_[k] / s : 1);
+  for (const double noise : noise_) out.push_back(noise / s);
   return out;
 }
 
@@ -52,7 +52,6 @@ Matrix CoarseSteps::read(Matrix drawn, const Draws& draws, std::uint64_t seed) c
   std::vector<double> place((draws.count + 1) / 2 * 2);
   for (Index k = 0; k < indications; ++k) {
     const double q = step_[index(k)];
-    if (!(q > 0)) continue;
     random::uniforms({seed, static_cast<std::uint32_t>(k + 1), 6, 0}, draws.first, place.size(), place.data());
     for (Index j = 0; j < drawn.cols(); ++j)
       for (Index i = k; i < drawn.rows(); i += indications) {

@@ -18,7 +18,7 @@ double noise_before_steps(double scatter, double step);
 /// The steps of some readings and the values that the model has there.
 class CoarseSteps {
 public:
-  /// No reading has coarse steps.
+  /// Steps are not coarse.
   CoarseSteps() = default;
   /// @param predicted  values of the chosen rows by the model, SI
   /// @param scatter    of readings of one place, in units of the design's noise, and its degrees of freedom
@@ -31,8 +31,8 @@ public:
   Matrix read(Matrix drawn, const Draws& draws, std::uint64_t seed) const;
 
 private:
-  std::vector<double> noise_; ///< by indication, before it is read, in units of the design's noise; all 0: none coarse
-  std::vector<double> step_;  ///< by indication, SI; 0: not coarse
+  std::vector<double> noise_; ///< by indication, before it is read, in units of the design's noise; empty: not coarse
+  std::vector<double> step_;  ///< by indication, SI
   Vector predicted_;
 };
 

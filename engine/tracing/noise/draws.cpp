@@ -58,13 +58,13 @@ Matrix Whitened::draw(const Draws& draws, std::uint64_t seed, const NoiseShape& 
   if (rho != 0)
     for (Index j = 0; j < out.cols(); ++j)
       for (Index i = k; i < out.rows(); ++i) out(i, j) = rho * out(i - k, j) + factor * out(i, j);
+  for (Index i = 0; i < out.rows() && !shape.own.empty(); ++i) out.row(i) *= shape.own[index(i % k)];
   if (shape.share > 0) put_outliers(shape, draws, seed, out);
   for (Index i = 0; i < out.rows(); i += k) {
     const auto place = index(rows_[index(i)]) / design_.indications;
     const Matrix& local = design_.straight.empty() ? design_.local[place] : design_.straight[place];
     out.middleRows(i, k) = (local.triangularView<Eigen::Lower>() * out.middleRows(i, k)).eval();
   }
-  for (Index i = 0; i < out.rows() && !shape.own.empty(); ++i) out.row(i) *= shape.own[index(i % k)];
   if (design_.random.cols() > 0) add_declared(draws, seed, out);
   add_scatter(draws, seed, shape, out);
   return out;

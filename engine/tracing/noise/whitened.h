@@ -17,7 +17,7 @@ struct NoiseShape {
   /// Rows x nodes: response of each reading to a draw bend_node(j) of the variance component, in SI at scale 1; empty:
   /// as in the covariance model.
   Matrix scatter = {};
-  std::vector<double> own = {}; ///< by indication, factor of the noise of single readings; empty: 1
+  std::vector<double> own = {}; ///< by indication, factor of the noise of readings that are not outlying; empty: 1
 
   /// Ratio of the standard deviation of the readings that are not outlying to that of all, winsorised like data.
   double core() const;
