@@ -36,9 +36,19 @@ bool numbers_rows(const RecognisedData& data, const RecognisedColumn& c) {
   return std::ranges::adjacent_find(data.csv.rows, std::greater_equal{}, value) == data.csv.rows.end();
 }
 
-/// Whether it is known, by more than the word "set", to be where readings were taken.
+/// Whether a column counts 1, 2, 3, ... from row to row, or from another number.
+bool rises_by_one(const RecognisedData& data, const RecognisedColumn& c) {
+  if (!c.number || c.gaps) return false;
+  const auto at = static_cast<std::size_t>(data.csv.find(c.name));
+  const auto value = [&](const auto& row) { return data.csv.number(row[at], data.decimal); };
+  const auto not_next = [&](const auto& a, const auto& b) { return value(b) != value(a) + 1; };
+  return std::ranges::adjacent_find(data.csv.rows, not_next) == data.csv.rows.end();
+}
+
+/// Whether it is known, by more than the word "set", to be where readings were taken: a place, or a part by its name.
 bool is_known_place(const RecognisedColumn& c) {
   const auto words = words_of(c.name);
+  if (!c.number && c.role == ColumnRole::other) return true;
   const bool named = c.role == ColumnRole::position && c.basis == Basis::name && std::ranges::count(words, "set") == 0;
   return c.number && is_place(c) && (named || (c.role == ColumnRole::other && c.unit != "?"));
 }
@@ -149,6 +159,8 @@ void guess_roles(RecognisedData& data) {
         c.unit = "1";
         break;
       }
+  for (RecognisedColumn& c : columns) // a "set" that counts the readings
+    if (c.role == ColumnRole::position && c.basis == Basis::name && c.unit == "?" && rises_by_one(data, c)) c.leave();
   // A pressure next to a target is no second position.
   for (bool known = false; RecognisedColumn & c : columns)
     if (c.role == ColumnRole::position && std::exchange(known, true) && c.basis == Basis::name) c.leave();

@@ -98,6 +98,14 @@ class NewColumns(Starter):
                 self.assertEqual(f"{name}: cycle (as it numbers passes over the same places)" in said, cycle, said)
                 if cycle:
                     self.assertIn(f"{place}: position", said)
+        rows = ["start,tool,length_mm"] + [f"{s},T{k},{40 + k + s / 1e4}" for s in range(1, 9) for k in range(1, 6)]
+        (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "p.csv", "--force")
+        self.assertIn("start: cycle (as it numbers passes over the same places)", said)
+        self.assertNotIn("position", said)
+        rows = ["set,position (mm),error (um)"] + [f"{k + 1},{10 * (k % 5)},{k % 3}" for k in range(25)]
+        (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("position (mm): position, mm", self.new("--from", "p.csv", "--force"))
         rows = ["set,d_um,x_mm"] + [f"{s},{(3 * s + k) % 5 / 10},{10 * s}" for s in range(1, 6) for k in range(4)]
         (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
         self.assertNotIn("set: cycle", self.new("--from", "p.csv", "--force"))

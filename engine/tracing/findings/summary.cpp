@@ -294,7 +294,13 @@ std::string what_residuals_show(const Trace& t) {
   constexpr const char* lacks = "the model or the declared noise lacks something that these data do not identify.";
   const std::string noise = std::isfinite(r.noise_high) ? in_95(r.noise_low, r.noise_high, r) : shown_rms(r.noise, r);
   constexpr const char* chance = "noise alone gives as much in one case of forty, or"; // beyond 97.5 %
-  if (held_out_exceeds(r)) return fmt::format("No candidate explains it: {} {}", chance, lacks);
+  const std::string bad = bad_readings(t);
+  if (held_out_exceeds(r) && !bad.empty()) return "No candidate explains it. " + bad;
+  constexpr double by_far = 1.5; // no chance of one in forty
+  if (held_out_exceeds(r))
+    return fmt::format("No candidate explains it: {}{}",
+                       r.holdout_after_winsorised > by_far * r.holdout_noise_high ? "" : std::string(chance) + " ",
+                       lacks);
   if (r.before > r.noise_high && t.p_anything > t.alpha && !t.outliers.empty())
     return fmt::format(
         "The residuals of the training data ({}) are larger than noise alone gives ({}), because {} outlying; "
@@ -321,8 +327,8 @@ std::string what_residuals_show(const Trace& t) {
         "large as declared, but noise as declared gives residuals this large in only {:.2g} % of cases: {}",
         shown_rms(r.before, r), t.noise.scale, 100 * t.noise.chi_squared_p, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
-                     "gives ({}).",
-                     shown_rms(r.before, r), noise);
+                     "gives ({}).{}",
+                     shown_rms(r.before, r), noise, bad.empty() ? "" : " " + bad);
 }
 
 std::string scatter_of_replicates(const Rms& r) {

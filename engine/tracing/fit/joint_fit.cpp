@@ -266,8 +266,7 @@ void Fitter::converge(JointFit& fit, double noise) const {
           squares -= fit.drawn[index(v)] * fit.drawn[index(v)];
           left -= 1 - covariance(p + index(j), p + index(j));
         }
-        squares = std::max(squares, w.hidden_squares());
-        if (squares > 0 && left >= 1) factor = std::min(factor, squares / left);
+        if (squares > 0 && left >= 1) factor = std::min(factor, std::max(squares / left, w.least_variance()));
       }
       if (std::fabs(std::log(factor)) < criteria.noise_settled || ++scales > criteria.most_scales) return false;
       fit.noise *= std::sqrt(factor);

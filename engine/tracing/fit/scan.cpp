@@ -266,7 +266,7 @@ void Scan::choose_models(const Matrix& without, Index j, Statistics& out) const 
   for (Index c = 0; c < out.scatter.rows(); ++c)
     out.scatter(c, j) = std::max(0.0, without(index(single), j) - component[c]);
   const auto variance = [&](std::size_t i) {
-    return std::max(squares_of(without(index(i), j), i), whitened_[i].hidden_squares()) / static_cast<double>(freedom_);
+    return std::max(squares_of(without(index(i), j), i) / static_cast<double>(freedom_), whitened_[i].least_variance());
   };
   out.covariance_model[index(j)] = k;
   out.without_scatter[index(j)] = single;

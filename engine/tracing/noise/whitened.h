@@ -75,6 +75,7 @@ public:
   std::size_t degrees_of_freedom() const { return rows_.size() - use_.size(); }
   /// As hidden_squares() of the design, whitened.
   double hidden_squares() const { return hidden_squares_; }
+  double least_variance() const { return hidden_squares_ / static_cast<double>(rows_.size()); } ///< of a reading
 
 private:
   /// Fixed, then random columns, in units of the noise of readings.
