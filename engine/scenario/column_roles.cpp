@@ -45,20 +45,23 @@ bool rises_by_one(const RecognisedData& data, const RecognisedColumn& c) {
   return std::ranges::adjacent_find(data.csv.rows, not_next) == data.csv.rows.end();
 }
 
-/// Whether it is known, by more than the word "set", to be where readings were taken: a place, or a part by its name.
+/// Whether the word "set" alone says that it is a position: a column of what was set, or the number of a set.
+bool is_position_by_set(const RecognisedColumn& c) {
+  return c.role == ColumnRole::position && c.basis == Basis::name && std::ranges::count(words_of(c.name), "set") > 0;
+}
+
+/// Whether it is known, by more than that, to be where readings were taken: a place, or a part by its name.
 bool is_known_place(const RecognisedColumn& c) {
-  const auto words = words_of(c.name);
   if (!c.number && c.role == ColumnRole::other) return true;
-  const bool named = c.role == ColumnRole::position && c.basis == Basis::name && std::ranges::count(words, "set") == 0;
+  const bool named = c.role == ColumnRole::position && c.basis == Basis::name && !is_position_by_set(c);
   return c.number && is_place(c) && (named || (c.role == ColumnRole::other && c.unit != "?"));
 }
 
 /// Whether whole numbers without a unit count stretches of rows, 1 1 1 2 2 2, in each of which a place comes back to
 /// the same values: a "set", a "start".
 bool numbers_passes(const RecognisedData& data, const RecognisedColumn& c) {
-  const bool named_set = c.role == ColumnRole::position && std::ranges::count(words_of(c.name), "set") > 0;
   if (names_parts(c) || is_circumstance(c) || counts_rows(c)) return false;
-  if (!c.number || c.gaps || c.unit != "?" || !(named_set || c.role == ColumnRole::other)) return false;
+  if (!c.number || c.gaps || c.unit != "?" || !(is_position_by_set(c) || c.role == ColumnRole::other)) return false;
   const auto at = static_cast<std::size_t>(data.csv.find(c.name));
   std::vector<double> number;
   for (const auto& row : data.csv.rows) number.push_back(data.csv.number(row[at], data.decimal));
@@ -159,8 +162,8 @@ void guess_roles(RecognisedData& data) {
         c.unit = "1";
         break;
       }
-  for (RecognisedColumn& c : columns) // a "set" that counts the readings
-    if (c.role == ColumnRole::position && c.basis == Basis::name && c.unit == "?" && rises_by_one(data, c)) c.leave();
+  for (RecognisedColumn& c : columns)
+    if (is_position_by_set(c) && c.unit == "?" && rises_by_one(data, c)) c.leave(); // it counts the readings
   // A pressure next to a target is no second position.
   for (bool known = false; RecognisedColumn & c : columns)
     if (c.role == ColumnRole::position && std::exchange(known, true) && c.basis == Basis::name) c.leave();
