@@ -10,8 +10,8 @@
 
 #include "base/text_file.h"
 #include "cli/command.h"
-#include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
+#include "tracing/findings/what_was_found.h"
 #include "tracing/scenario_out/traced_scenario.h"
 
 namespace gumshoe::cli {

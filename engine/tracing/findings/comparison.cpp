@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +12,7 @@
 #include "tracing/criteria.h"
 #include "tracing/findings/errors.h"
 #include "tracing/findings/findings.h"
+#include "tracing/findings/noise_alone.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/holdout.h"
@@ -37,8 +37,6 @@ void set_noise_alone(std::vector<double> sizes, double& middle, double& low, dou
   low = quantile(0.025);
   high = quantile(0.975);
 }
-
-constexpr std::uint16_t scale_of_noise = 5; ///< stream of random numbers, after those of noise/draws
 
 class Comparison {
 public:
@@ -69,11 +67,8 @@ public:
       fit->design.local = judged_.design.local;
       fit->design.reference = judged_.design.reference;
     }
-    std::vector<Index> every(index(after_.residual.size()));
-    std::iota(every.begin(), every.end(), 0);
-    const bool in_turn = c_.observations.holdout_blocks.empty();
-    noise_ = noise_of_readings(every, in_turn ? std::vector<Index>{} : draws_of_held_out());
-    predicted_noise_ = in_turn ? noise_of_readings(every, draws_of_single_blocks()) : noise_;
+    noise_ = noise_of_readings(c_, after_);
+    predicted_noise_ = noise_of_predicted(c_, after_, noise_);
   }
 
   bool compare() {
@@ -98,50 +93,6 @@ public:
   }
 
 private:
-  /// Declared draws that no training reading shows.
-  std::vector<Index> draws_of_held_out() const {
-    const Matrix& random = after_.design.random;
-    std::vector<Index> out;
-    for (Index j = 0; j < random.cols(); ++j)
-      if (random(rows_, j).isZero(0)) out.push_back(j);
-    return out;
-  }
-
-  /// Declared draws of one block each, where every block is left out in turn.
-  std::vector<Index> draws_of_single_blocks() const {
-    const Matrix& random = after_.design.random;
-    const Blocks blocks = predicted_blocks(c_.observations);
-    std::vector<Index> out;
-    for (Index j = 0; j < random.cols(); ++j)
-      if (std::ranges::count_if(blocks.rows, [&](const auto& rows) { return !random(rows, j).isZero(0); }) == 1)
-        out.push_back(j);
-    return out;
-  }
-
-  /// Draws of the fitted noise, all rows x sets. Declared draws that the fitted data show are part of the fit and stay
-  /// out; those of a block that is predicted, `own`, are not, and so belong to what its readings scatter.
-  Matrix noise_of_readings(const std::vector<Index>& every, const std::vector<Index>& own) const {
-    Design design = after_.design;
-    design.random = Matrix(design.random(Eigen::all, own));
-    std::vector<int> bent;
-    for (const Index j : own) bent.push_back(design.bent[index(j)]);
-    design.bent = std::move(bent);
-    const Whitened w(design, every, {}, after_.covariance_model);
-    return std::sqrt(after_.variance) * w.draw(criteria.noise_draws, c_.seed ^ 0xf100full);
-  }
-
-  /// The same of readings that were not fitted: the scale of the noise is known to its degrees of freedom only, and
-  /// where readings jump with sizes that were found, they may jump elsewhere.
-  Matrix not_fitted(Matrix noise) const {
-    const std::size_t freedom = rows_.size() - independent(after_.design, rows_).size();
-    const Matrix chance = normals(freedom, index(noise.cols()), c_.seed ^ 0xf100full, scale_of_noise);
-    for (Index j = 0; j < noise.cols(); ++j)
-      noise.col(j) *= std::sqrt(static_cast<double>(freedom) / chance.col(j).squaredNorm());
-    const std::vector<Index> rows = rows_where(c_.observations, c_.observations.held_out);
-    if (!rows.empty()) noise(rows, Eigen::all) += c_.fitter.across_jumps(after_, noise.cols())(rows, Eigen::all);
-    return noise;
-  }
-
   /// Scatter of readings of equal conditions; its interval by what the fitted noise gives in draws.
   void replicate_floor() {
     const PureError pure(after_.design, rows_, c_.fitter.replicates(), c_.threads, after_.covariance_model);
@@ -183,7 +134,7 @@ private:
     scored_before_ = predict(base_, base_.residual, blocks);
     scored_after_ = predict(after_, after_.residual, blocks);
     if (scored_before_.scored())
-      set_noise_alone(predict(after_, not_fitted(predicted_noise_), blocks).rms, rms.holdout_noise,
+      set_noise_alone(predict(after_, not_fitted(c_, after_, predicted_noise_), blocks).rms, rms.holdout_noise,
                       rms.holdout_noise_low, rms.holdout_noise_high);
     else
       rms.holdout += "; not scored, because it has no more readings than block offsets";

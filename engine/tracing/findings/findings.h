@@ -31,7 +31,5 @@ void describe_scatter(const TraceContext& context, const JointFit& fit, const Fi
                       const Rms& rms, Finding& finding);
 /// Writes the two sentences for a machinist: what was found, how large, how sure, what to do.
 void summarise(Trace& out);
-/// "axis_drift (amplitude 1.5 um)", "an unknown effect of position"
-std::string briefly(const Finding& finding);
 
 } // namespace gumshoe::tracing

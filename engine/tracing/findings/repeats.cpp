@@ -6,7 +6,7 @@
 
 #include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
-#include "tracing/judgement/evidence.h"
+#include "tracing/judgement/what_repeats.h"
 #include "tracing/noise/block_spread.h"
 
 namespace gumshoe::tracing {

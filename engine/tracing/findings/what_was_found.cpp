@@ -1,0 +1,195 @@
+#include "tracing/findings/what_was_found.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/rounding.h"
+#include "base/units.h"
+#include "tracing/findings/findings.h"
+#include "tracing/findings/sizes.h"
+#include "tracing/findings/verdict_json.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+constexpr std::string_view declared = "declared:";
+bool declares(const Finding& f) { return f.name.starts_with(declared); }
+
+/// Sizes of one kind with the first, as those of a vector: the best known of many, in their order.
+std::vector<const SizedQuantity*> sizes_told(const Finding& f) {
+  constexpr std::size_t most = 3;
+  std::vector<const SizedQuantity*> out;
+  for (const SizedQuantity& q : f.quantities)
+    if (q.si_unit == f.quantities[0].si_unit) out.push_back(&q);
+  const auto times_u = [](const SizedQuantity* q) { return q->u > 0 ? std::fabs(q->value) / q->u : 0; };
+  while (out.size() > most) out.erase(std::ranges::min_element(out, std::ranges::less{}, times_u));
+  return out;
+}
+
+/// " (amplitude 1.5 um)", " (tilt_x 0.1 mrad, tilt_y -0.3 mrad)"; empty without a size
+std::string size_of(const Finding& f) {
+  if (f.quantities.empty()) return "";
+  const SizedQuantity& q = f.quantities[0];
+  if (!declares(f)) {
+    std::vector<std::string> all;
+    for (const SizedQuantity* one : sizes_told(f))
+      all.push_back(fmt::format("{} {}", one->name, shown_size(one->value, one->unit, one->si_unit)));
+    return fmt::format(" ({})", fmt::join(all, ", "));
+  }
+  const ShownSize s = shown(q); // to the digits that u leaves: it may differ little from what was declared
+  return fmt::format(" ({} {}{})", q.name, analysis::fixed(s.value, analysis::decimals_for(s.u)),
+                     units::suffix(s.unit));
+}
+
+/// "reading 27" of "step:time after reading 27", asked for as "step:" and " after "; empty of any other shape.
+std::string reading_of(const std::string& shape, const std::string& kind, const std::string& where) {
+  const auto at = shape.find(where);
+  return shape.starts_with(kind) && at != std::string::npos ? shape.substr(at + where.size()) : "";
+}
+/// The reading after which the readings differ by a constant.
+std::string instant_of(const std::string& shape) { return reading_of(shape, "step:", " after "); }
+/// "tool T3" of "step:time with tool T3 after reading 27", which alone differs from then on; empty of any other shape.
+std::string part_of_step(const std::string& shape) {
+  const auto with = shape.find(" with "), after = shape.find(" after ");
+  if (!shape.starts_with("step:") || with == std::string::npos || after == std::string::npos || after < with) return "";
+  return shape.substr(with + 6, after - with - 6);
+}
+/// The reading about which something came and went.
+std::string pulse_of(const std::string& shape) { return reading_of(shape, "pulse:", " about "); }
+/// The reading about which they went over to other values.
+std::string shift_of(const std::string& shape) { return reading_of(shape, "shift:", " about "); }
+
+/// "tool T3", which alone changes with the first condition; empty of any other shape.
+std::string part_alone(const Finding& f) {
+  if (f.depends_on.size() != 2) return {};
+  const std::string product = fmt::format("product:{}*{} ", f.depends_on[0], f.depends_on[1]);
+  if (!f.described_by.starts_with(product)) return {};
+  return f.depends_on[1] + " " + f.described_by.substr(product.size());
+}
+
+/// What may be there in place of scatter: the other members of its finding, if it has any. In place of that of single
+/// readings these are sizes with which readings jump.
+std::string in_its_place(const Finding& f) {
+  if (f.members.size() < 2) return {};
+  if (f.members[0] == "scatter:reading")
+    return fmt::format("they jump with {}", fmt::join(f.members.begin() + 1, f.members.end(), " or "));
+  const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
+  if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
+  if (shape.starts_with("step:")) return on + " differs from the others, which agree";
+  if (const std::string reading = pulse_of(shape); !reading.empty()) return "something came and went about " + reading;
+  if (const std::string reading = shift_of(shape); !reading.empty()) return "something changed about " + reading;
+  return shape == on ? on + " is there" : "the readings follow " + on;
+}
+
+/// "the declared value of reference_drift"; an effect by its name.
+std::string told(const std::string& member) {
+  return member.starts_with(declared) ? fmt::format("the declared value of {}", member.substr(declared.size()))
+                                      : member;
+}
+std::string told(const std::vector<std::string>& members) {
+  std::vector<std::string> all;
+  for (const std::string& one : members) all.push_back(told(one));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// A hysteresis without a condition that is the direction depends on one condition, and on from where it was reached.
+std::string reversed_condition(const Finding& f) {
+  const bool one = f.described_by.starts_with("hysteresis:") && f.depends_on.size() == 1;
+  return one ? f.depends_on[0] : "";
+}
+
+} // namespace
+
+std::string indication_of(const Trace& t, const Finding& f) {
+  for (const IndicationError& e : t.of_indications)
+    if (f.described_by.ends_with(" of " + e.name)) return e.name;
+  return {};
+}
+
+std::string what_was_found(const Finding& f, const std::string& of) {
+  const std::string readings = of.empty() ? "the readings" : "the readings of " + of;
+  const std::string size = size_of(f);
+  const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
+  switch (f.kind) {
+  case Kind::named:
+    if (declares(f))
+      return fmt::format("The readings contradict a value that {}: {}{}.",
+                         f.by_default ? "the model takes where the scenario states none" : "the scenario declares",
+                         f.name.substr(declared.size()), size);
+    if (!f.implausible.empty())
+      return fmt::format("A part of the error looks like {}{}, but this size is {}: likely an alias of another effect.",
+                         f.name, size, f.implausible);
+    return fmt::format("The model lacks an effect of the machine: {}{}{}.", f.name, size,
+                       f.fits_better.empty() ? "" : ", or " + f.fits_better + ", which fits better");
+  case Kind::equivalence_class:
+    return fmt::format("The model lacks an effect of the machine. It is one of: {}. These data cannot "
+                       "distinguish them.",
+                       told(f.members));
+  case Kind::scatter:
+    return fmt::format("The readings scatter {}{}{}.",
+                       f.depends_on == std::vector<std::string>{"reading"}
+                           ? "more than declared"
+                           : fmt::format("from one {} to the next more than within one", depends_on),
+                       size,
+                       f.members.size() < 2 ? "" : ", or " + in_its_place(f) + ": these data cannot distinguish them");
+  case Kind::not_in_catalogue:
+    if (f.described_by.starts_with("table:"))
+      return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
+                         depends_on);
+    if (const std::string condition = reversed_condition(f); !condition.empty())
+      return fmt::format(
+          "The readings differ between rising and falling {}, and no effect of the catalogue explains it.", condition);
+    if (const std::string part = part_of_step(f.described_by); !part.empty())
+      return fmt::format("Something changed with {} after {}: from then on {} with it differ by a constant.", part,
+                         instant_of(f.described_by), readings);
+    if (const std::string reading = instant_of(f.described_by); !reading.empty())
+      return fmt::format("Something changed after {}: from then on {} differ by a constant.", reading, readings);
+    if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
+      return fmt::format("Something came and went about {}: for a while {} differ.", pulse, readings);
+    if (const std::string reading = shift_of(f.described_by); !reading.empty())
+      return fmt::format("Something changed about {}, not at once: after that {} differ by a constant.", reading,
+                         readings);
+    if (const std::string part = part_alone(f); !part.empty())
+      return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
+    if (const std::string step = "step:";
+        f.described_by.starts_with(step) && f.described_by.find(f.depends_on[0] + " ") != std::string::npos)
+      return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
+    return fmt::format("An unknown effect changes {} {}with {}.", readings,
+                       f.described_by.starts_with("wave:") ? "periodically " : "", depends_on);
+  }
+  return {};
+}
+
+std::string briefly(const Finding& f) {
+  const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
+  switch (f.kind) {
+  case Kind::named:
+    return told(f.name) + size_of(f);
+  case Kind::equivalence_class:
+    return fmt::format("one of {}", told(f.members));
+  case Kind::scatter:
+    return fmt::format("scatter from one {} to the next{}{}", depends_on, size_of(f),
+                       f.members.size() < 2 ? "" : ", or " + in_its_place(f));
+  case Kind::not_in_catalogue:
+    if (const std::string condition = reversed_condition(f); !condition.empty())
+      return "a difference between rising and falling " + condition;
+    if (const std::string reading = instant_of(f.described_by); !reading.empty()) {
+      const std::string part = part_of_step(f.described_by);
+      return fmt::format("a step{} after {}", part.empty() ? "" : " of " + part, reading);
+    }
+    if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
+    if (const std::string reading = shift_of(f.described_by); !reading.empty())
+      return "a gradual step about " + reading;
+    if (const std::string part = part_alone(f); !part.empty())
+      return fmt::format("an unknown effect of {} on {} alone", f.depends_on[0], part);
+    return "an unknown effect of " + depends_on;
+  }
+  return {};
+}
+
+} // namespace gumshoe::tracing
