@@ -20,7 +20,8 @@ Design axis() {
   d.fixed_names = {"zero"};
   d.random.resize(rows, 0);
   d.reference = {0.1 * um};
-  d.step = d.coarse = {um};
+  d.step = {um};
+  d.coarse = true;
   for (Index i = 0; i < rows; ++i) {
     d.reading.push_back(static_cast<std::size_t>(i));
     d.local.push_back(Matrix::Constant(1, 1, 0.1 * um));
@@ -93,7 +94,7 @@ TEST_CASE("equal readings do not show that they have no noise", "[tracing]") {
   CHECK(steps.share(1)[0] * 0.1 == Approx(noise_before_steps(1 / std::sqrt(36.0), 1)));
   CHECK(hidden_squares(d, all()) == Approx(30 * 100.0 / 12)); // a step is ten times the noise
   Design fine = d;
-  fine.coarse.clear();
+  fine.coarse = false;
   CHECK(hidden_squares(fine, all()) == 0);
   CHECK_FALSE(CoarseSteps(fine, Vector::Zero(30), 0, 18).any());
 }

@@ -86,7 +86,7 @@ std::vector<Instant> instants(const Observations& o, const std::vector<Index>& r
   return out;
 }
 
-/// Of each part in turn: one tool was hit, one artefact slipped.
+/// The same for every part in turn: one tool was hit, one artefact slipped.
 std::vector<Instant> instants_of_parts(const Observations& o, const std::vector<Index>& rows, const Grouping& label) {
   std::vector<Instant> out;
   for (std::size_t g = 0; g < label.groups.size(); ++g)

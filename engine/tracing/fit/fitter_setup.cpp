@@ -253,7 +253,7 @@ std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& b
 
 /// As in find_growth(), without readings that stand out with these weights and without them.
 bool Fitter::weigh_by_label(const JointFit& found) {
-  if (noise_declared_ || growth_ || !coarse_.empty()) return false;
+  if (noise_declared_ || growth_ || coarse_) return false;
   const auto best = by_label_without({}, found);
   if (!best) return false;
   const auto outlying = [&] {
@@ -285,7 +285,7 @@ std::vector<Index> Fitter::outlying_in_cells(const JointFit& fit) const {
 /// A reading that stands out, whether noise grows or not, moves the mean of its cell, so that in every pass one reading
 /// there seems to scatter more: growth must be there without it.
 void Fitter::find_growth() {
-  if (noise_declared_ || !coarse_.empty()) return; // rounding scatters by where between two steps a place lies
+  if (noise_declared_ || coarse_) return; // rounding scatters by where between two steps a place lies
   const auto grows = growth_without({});
   if (!grows) return;
   const std::vector<Index> with_equal = outlying_in_cells(linearised(1));
@@ -312,7 +312,7 @@ void Fitter::find_coarse() {
     const bool shown = s > rounding * step || values.size() >= criteria.values_of_steps;
     if (!(shown && s < criteria.coarse * step)) return;
   }
-  coarse_ = observations_.step;
+  coarse_ = true;
 }
 
 std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
@@ -328,9 +328,8 @@ std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
     for (Index row = i; row + 2 * k < about.rows(); row += k)
       x.push_back((about(row, 0) - 2 * about(row + k, 0) + about(row + 2 * k, 0)) / std::sqrt(6.0));
     // Equal readings are no noise of zero: what rounding of numbers leaves would be the scale.
-    const auto k_i = index(i);
-    out.size[i] =
-        std::max(scale_of(std::move(x)), observations_.step[k_i] / std::sqrt(12.0) / fit.design.reference[k_i]);
+    const double step = observations_.step[index(i)] / fit.design.reference[index(i)];
+    out.size[i] = std::max(scale_of(std::move(x)), step / std::sqrt(12.0));
   }
   if (!(out.size.minCoeff() > 0)) return std::nullopt;
   // The median has 0.37 of the information of the mean square, and second differences about half of the readings'.

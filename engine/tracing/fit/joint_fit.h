@@ -247,7 +247,7 @@ private:
   bool noise_declared_ = false;
   Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
   Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
-  std::vector<double> coarse_;        ///< as Design::coarse
+  bool coarse_ = false;               ///< as Design::coarse
   std::optional<NoiseGrowth> growth_; ///< of noise that is not declared; this or the next
   std::optional<NoiseByLabel> by_label_;
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending

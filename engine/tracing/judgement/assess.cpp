@@ -66,7 +66,7 @@ public:
     // A declared s of nu degrees of freedom has a relative uncertainty of 1 / sqrt(2 nu) itself.
     spread_of_data_ = std::sqrt(spread_ * spread_ + 1 / (2 * freedom));
     constexpr double alike = 1e-6; // of readings in coarse steps most draws may be equal but for rounding
-    // Of no more than rounding nothing is known but that.
+    // Where the data hold no more than rounding, they do not tell how large the noise is.
     const double least = scan.whitened(data.without_scatter[0]).least_variance();
     judged_ = declared > 0 && spread_ > alike && data.variance_without_scatter[0] > least;
     if (judged_) observed_ = std::log(observed / declared);

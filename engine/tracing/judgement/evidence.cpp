@@ -13,6 +13,7 @@
 #include "tracing/judgement/apart.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/holdout.h"
+#include "tracing/judgement/what_repeats.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -129,30 +130,6 @@ std::size_t wide_cells(std::size_t readings) {
 } // namespace
 
 std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? "" : " (" + a.shape + ")"); }
-
-namespace {
-
-double measured(const TraceContext& c, const Design& d, Index row) {
-  return c.observations.measured[d.reading[index(row)] * d.indications + index(row) % d.indications];
-}
-
-} // namespace
-
-Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
-  Repeats out{PureError(fit.design, c.fitter.rows(), c.fitter.replicates(), c.threads),
-              {},
-              c.observations.blocks.groups.size(),
-              std::sqrt(12.0) * least_scale(fit.design, c.fitter.rows())};
-  if (out.blocks < criteria.blocks_for_folds) out.blocks = 0;
-  for (const Index row : c.fitter.rows())
-    if (out.blocks > 0) out.block.push_back(c.observations.blocks.group[fit.design.reading[index(row)]]);
-  if (!out.pure.known()) return out;
-  const Vector residual = fit.residual(c.fitter.rows());
-  Vector predicted = -residual;
-  for (Index i = 0; i < predicted.size(); ++i) predicted[i] += measured(c, fit.design, c.fitter.rows()[index(i)]);
-  out.steps = CoarseSteps(fit.design, std::move(predicted), out.pure.scale(residual)[0], out.pure.freedom());
-  return out;
-}
 
 Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped,
                    bool wide)

@@ -25,9 +25,6 @@ struct Trial {
 /// "polynomial:feed^2 (zero in the middle)"
 std::string with_shape(const Candidate& candidate);
 
-/// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
-Repeats repeats_of(const TraceContext& context, const JointFit& fit);
-
 /// Whether what one fit removes and another leaves is of a few successive readings (criteria.h): outliers, and no
 /// shape.
 bool explains_few(const TraceContext& context, const JointFit& without, const JointFit& with);

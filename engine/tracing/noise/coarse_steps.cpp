@@ -34,8 +34,8 @@ double noise_before_steps(double scatter, double step) {
 /// is likely that none is. It leaves half the square of a step about the mean of two.
 CoarseSteps::CoarseSteps(const Design& d, Vector predicted, double scatter, double freedom)
     : predicted_(std::move(predicted)) {
-  for (std::size_t k = 0; k < d.coarse.size(); ++k) {
-    const double q = d.coarse[k], s = std::hypot(scatter * d.reference[k], q / std::sqrt(2 * freedom));
+  for (std::size_t k = 0; d.coarse && k < d.step.size(); ++k) {
+    const double q = d.step[k], s = std::hypot(scatter * d.reference[k], q / std::sqrt(2 * freedom));
     step_.push_back(q);
     noise_.push_back(noise_before_steps(s, q) / d.reference[k]);
   }

@@ -38,10 +38,7 @@ double least_scale(const Design& d, const std::vector<Index>& rows) {
 }
 
 double hidden_squares(const Design& d, const std::vector<Index>& rows) {
-  if (d.coarse.empty()) return 0;
-  double out = 0;
-  for (const Index row : rows) out += std::pow(d.coarse[index(row) % d.indications] / noise_of_row(d, row), 2) / 12;
-  return out;
+  return d.coarse ? static_cast<double>(rows.size()) * std::pow(least_scale(d, rows), 2) : 0;
 }
 
 std::vector<Index> insensitive(const Design& d, const std::vector<Index>& rows) {

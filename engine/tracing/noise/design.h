@@ -31,7 +31,7 @@ struct Design {
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
   std::vector<double> step;      ///< by indication: in which its readings were recorded; empty: not known
-  std::vector<double> coarse;    ///< the same, if readings scatter so little that rounding repeats; else empty
+  bool coarse = false;           ///< readings scatter so little that rounding to these steps comes back
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
   std::vector<CovarianceModel> covariance_models; ///< those that are tried; empty: all
 };

@@ -72,7 +72,7 @@ std::vector<SparseRow> Whitened::scatter_in_units(const std::vector<int>& group)
 Serial Whitened::serial() const { return {model_.correlation, design_.indications}; }
 
 void Whitened::eliminate() {
-  // Of independent roundings, whitened as if each went with the one before.
+  // Roundings are independent; they are whitened as if each went with the one before.
   const double square = model_.correlation * model_.correlation;
   hidden_squares_ = tracing::hidden_squares(design_, rows_) * (1 + square) / (1 - square);
   const Design& d = design_;
