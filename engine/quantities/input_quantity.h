@@ -48,6 +48,7 @@ struct InputQuantity {
   std::string si_unit;
   std::vector<Entry> entries; ///< at least one; several only with different labels (`by`)
   bool estimated = false;     ///< to be fitted to the readings: values are starts, components priors
+  double display_alone = 0; ///< of an indication: the step of its display, SI, if no more is stated of single readings
 };
 
 /// Correlation between single-component quantities: through a Gaussian copula, or as a multivariate t distribution of

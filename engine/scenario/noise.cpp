@@ -58,6 +58,9 @@ public:
       refuse_shared(further, entries);
     }
     for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
+    const auto of_readings = [](const Component& c) { return std::ranges::find(c.per, "reading") != c.per.end(); };
+    if (repeatability.kind == Repeatability::Kind::none && own.empty() && std::ranges::none_of(further, of_readings))
+      out.display_alone = step.value_or(0);
     if (entries.front().components.empty())
       note("no component of uncertainty is stated: the readings are treated as exact");
     out.entries = std::move(entries);

@@ -29,8 +29,6 @@ struct Criteria {
   std::size_t readings_for_correlation = 12;
   /// Share of alpha for each finding after the first: a search after a finding may add a wrong name by chance.
   double further_share = 0.5;
-  /// Share of the declared noise that a display's step gives from which nothing else is declared.
-  double display_alone = 0.9;
   /// Share of a display's step below which the scatter of repeated readings leaves rounding that repeats: at half a
   /// step, what it leaves is 1 % of one.
   double coarse = 0.5;

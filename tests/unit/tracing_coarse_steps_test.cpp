@@ -21,7 +21,7 @@ Design axis() {
   d.random.resize(rows, 0);
   d.reference = {0.1 * um};
   d.step = {um};
-  d.coarse = true;
+  d.coarse = {true};
   for (Index i = 0; i < rows; ++i) {
     d.reading.push_back(static_cast<std::size_t>(i));
     d.local.push_back(Matrix::Constant(1, 1, 0.1 * um));
@@ -62,7 +62,7 @@ TEST_CASE("draws are read in the steps of the data, at places drawn anew", "[tra
   const Design d = axis();
   Vector predicted(30);
   for (Index i = 0; i < 30; ++i) predicted[i] = um * (0.37 * static_cast<double>(i % 3) + 5);
-  const CoarseSteps steps(d, predicted, 1, 1e9); // scatters by a tenth of a step, surely
+  const CoarseSteps steps(d, all(), predicted, Vector::Constant(1, 1), 1e9); // scatters by a tenth of a step, surely
   REQUIRE(steps.any());
   const double noise = noise_before_steps(0.1 * um, um);
   REQUIRE(steps.share(2).size() == 1);
@@ -88,13 +88,60 @@ TEST_CASE("draws are read in the steps of the data, at places drawn anew", "[tra
   CHECK(late == read.rightCols(200));
 }
 
+TEST_CASE("of two indications one may be read in coarse steps", "[tracing]") {
+  Design d = axis();
+  d.indications = 2;
+  d.reading.resize(15);
+  d.local.assign(15, Matrix(0.1 * um * Matrix::Identity(2, 2)));
+  d.reference = {0.1 * um, 0.1 * um};
+  d.step = {um, 0.01 * um};
+  d.coarse = {true, false};
+  CHECK(hidden_squares(d, all()) == Approx(15 * 100.0 / 12)); // of every second row
+  const CoarseSteps steps(d, all(), Vector::Zero(30), Vector::Constant(2, 1), 1e9);
+  CHECK(steps.share(2)[0] == Approx(noise_before_steps(0.1 * um, um) / (0.1 * um) / 2));
+  CHECK(steps.share(2)[1] == 1);
+  const Matrix drawn = 0.1 * um * normals(30, 8, 5, 0);
+  const Matrix read = steps.read(drawn, Draws{0, 8, 8}, 3);
+  for (Index i = 0; i < 30; i += 2) {
+    CHECK(read.row(i) != drawn.row(i));
+    CHECK(read.row(i + 1) == drawn.row(i + 1));
+  }
+}
+
+TEST_CASE("each readout of a mean is read by itself", "[tracing]") {
+  Design d = axis();
+  d.readouts.assign(30, 4);
+  for (Matrix& one : d.local) one = Matrix::Constant(1, 1, 0.1 * um);
+  CHECK(hidden_squares(d, all()) == Approx(30 * 100.0 / 12)); // rounding that all four share
+  // Four readouts with noise of 0.3 steps: means scatter by half of what one does.
+  const double scatter = scatter_read(0.3 * um, um) / 2;
+  const CoarseSteps steps(d, all(), Vector::Zero(30), Vector::Constant(1, scatter / (0.1 * um)), 1e9);
+  CHECK(steps.share(1)[0] == Approx(0.3 / 2 / 0.1).epsilon(1e-4));
+  constexpr std::size_t sets = 2000;
+  NoiseShape shape;
+  shape.own = steps.share(1);
+  const Matrix read = steps.read(Whitened(d, all(), {0}, {}).draw(sets, 3, shape), Draws{0, sets, sets}, 3);
+  double within = 0;
+  for (Index j = 0; j < read.cols(); ++j) {
+    for (Index i = 1; i < 30; ++i) {
+      const double quarters = 4 * (read(i, j) - read(0, j)) / um;
+      CHECK(std::fabs(quarters - std::round(quarters)) < 1e-6);
+    }
+    within += (read.col(j).array() - read.col(j).mean()).square().sum() / 29;
+  }
+  CHECK(std::sqrt(within / sets) == Approx(scatter).epsilon(0.02)); // where the place lies changes it little
+  Design fine = d;                                                  // rounding is independent of so much noise
+  fine.coarse.clear();
+  CHECK(least_scale(fine, all()) == Approx(10 / std::sqrt(12.0) / 2));
+}
+
 TEST_CASE("equal readings do not show that they have no noise", "[tracing]") {
   const Design d = axis();
-  const CoarseSteps steps(d, Vector::Zero(30), 0, 18);
+  const CoarseSteps steps(d, all(), Vector::Zero(30), Vector::Zero(1), 18);
   CHECK(steps.share(1)[0] * 0.1 == Approx(noise_before_steps(1 / std::sqrt(36.0), 1)));
   CHECK(hidden_squares(d, all()) == Approx(30 * 100.0 / 12)); // a step is ten times the noise
   Design fine = d;
-  fine.coarse = false;
+  fine.coarse.clear();
   CHECK(hidden_squares(fine, all()) == 0);
-  CHECK_FALSE(CoarseSteps(fine, Vector::Zero(30), 0, 18).any());
+  CHECK_FALSE(CoarseSteps(fine, all(), Vector::Zero(30), Vector::Zero(1), 18).any());
 }

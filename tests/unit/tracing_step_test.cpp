@@ -21,6 +21,13 @@ TEST_CASE("the step of readings is the largest of which all their differences ar
   CHECK(recorded_step(std::vector{-0.3, -0.1, 0.2}) == Approx(0.1));
   CHECK(recorded_step(std::vector{2.5, 2.5}) == 0);
   CHECK(recorded_step(std::vector<double>{}) == 0);
+  // Where the step of the display is stated.
+  CHECK(recorded_step(std::vector{0.0, 10 * um}, 1, um) == um);
+  CHECK(recorded_step(std::vector{2.5, 2.5}, 1, um) == um);
+  CHECK(recorded_step(std::vector{0.0, um / 3, um}, 1, um) == Approx(um / 3));
+  CHECK(recorded_step(std::vector{0.0, um / 3, um}, 3, um) == um); // means of three
+  CHECK(recorded_step(std::vector{0.0, um / 3, um}, 3, 0) == Approx(um));
+  CHECK(recorded_step(std::vector{0.0, 10 * um}, 1, 3 * um) == Approx(10 * um));
   // No step is claimed of what fills the digits of a double.
   std::vector<double> fine;
   for (int i = 1; i < 50; ++i) fine.push_back(std::sqrt(i));

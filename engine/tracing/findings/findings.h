@@ -20,8 +20,6 @@ struct ScatterSize {
 ScatterSize size_of_scatter(const TraceContext& context, const JointFit& fit, int component);
 /// What single readings scatter beyond what is declared, where this was found; none of other findings.
 std::vector<MoreNoise> larger_noise(const JointFit& fit, const Finding& found);
-/// What single readings scatter beyond what is declared, by indication.
-std::vector<MoreNoise> beyond_declared(const JointFit& fit);
 /// A component as noise of the indications that it moves.
 std::vector<MoreNoise> noise_of(const Component& component, const JointFit& fit);
 

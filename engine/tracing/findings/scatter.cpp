@@ -69,10 +69,6 @@ ScatterSize size_of_scatter(const TraceContext& c, const JointFit& fit, int comp
 
 std::vector<MoreNoise> larger_noise(const JointFit& fit, const Finding& found) {
   if (found.kind != Kind::scatter || found.depends_on != std::vector<std::string>{"reading"}) return {};
-  return beyond_declared(fit);
-}
-
-std::vector<MoreNoise> beyond_declared(const JointFit& fit) {
   std::vector<MoreNoise> out;
   const auto& reference = fit.design.reference;
   const double scale = fit.noise * std::sqrt(fit.variance); // what is missing in its square

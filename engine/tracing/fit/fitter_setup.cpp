@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -29,10 +30,8 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
   for (const FreeUnknown& u : unknowns_) needed.insert(u.quantity);
   for (const Draw& d : draws_)
     for (const auto& [r, q] : d.moves)
-      if (experiment.layout().indications.contains(q))
-        noise_declared_ = true;
-      else
-        needed.insert(q);
+      if (!experiment.layout().indications.contains(q)) needed.insert(q);
+  noise_declared_ = declares_noise();
   if (noise_declared_) need_independent_noise();
   needed_.assign(needed.begin(), needed.end());
   spread_ = Vector::Ones(index(observations.indications));
@@ -41,6 +40,18 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
   find_coarse();
   find_growth();
   find_covariance_models();
+}
+
+/// A display says how well a reading can be known, not how readings repeat: that they show themselves, if they can.
+bool Fitter::declares_noise() const {
+  const bool shown = rows_.size() > unknowns_.size();
+  const auto& layout = experiment_.layout().indications;
+  return std::ranges::any_of(draws_, [&](const Draw& d) {
+    return std::ranges::any_of(d.moves, [&](const auto& move) {
+      return layout.contains(move.second) &&
+             !(shown && experiment_.scenario().quantities[move.second].display_alone > 0);
+    });
+  });
 }
 
 void Fitter::need_independent_noise() const {
@@ -253,7 +264,7 @@ std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& b
 
 /// As in find_growth(), without readings that stand out with these weights and without them.
 bool Fitter::weigh_by_label(const JointFit& found) {
-  if (noise_declared_ || growth_ || coarse_) return false;
+  if (noise_declared_ || growth_ || !coarse_.empty()) return false;
   const auto best = by_label_without({}, found);
   if (!best) return false;
   const auto outlying = [&] {
@@ -285,7 +296,7 @@ std::vector<Index> Fitter::outlying_in_cells(const JointFit& fit) const {
 /// A reading that stands out, whether noise grows or not, moves the mean of its cell, so that in every pass one reading
 /// there seems to scatter more: growth must be there without it.
 void Fitter::find_growth() {
-  if (noise_declared_ || coarse_) return; // rounding scatters by where between two steps a place lies
+  if (noise_declared_ || !coarse_.empty()) return; // rounding scatters by where between two steps a place lies
   const auto grows = growth_without({});
   if (!grows) return;
   const std::vector<Index> with_equal = outlying_in_cells(linearised(1));
@@ -297,22 +308,28 @@ void Fitter::find_growth() {
   growth_ = growth_without(bad);
 }
 
+double Fitter::mean_readouts() const {
+  const auto& all = observations_.readouts;
+  return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+}
+
 void Fitter::find_coarse() {
   const JointFit fit = linearised(1);
   if (!fit.valid) return;
   const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known()) return;
-  const double scatter = pure.scale(fit.residual(rows_))[0];
+  const Vector scatter = pure.scale_by_indication(fit.residual(rows_));
+  const double readouts = mean_readouts();
   for (std::size_t k = 0; k < observations_.indications; ++k) {
-    const double s = scatter * fit.design.reference[k], step = observations_.step[k];
+    const double s = scatter[index(k)] * fit.design.reference[k] * std::sqrt(readouts), step = observations_.step[k];
     std::set<double> values;
     for (std::size_t r = 0; r < observations_.readings; ++r)
       values.insert(observations_.measured[r * observations_.indications + k]);
     constexpr double rounding = 1e-6; // of a step: readings that come back are all equal
     const bool shown = s > rounding * step || values.size() >= criteria.values_of_steps;
-    if (!(shown && s < criteria.coarse * step)) return;
+    coarse_.push_back(shown && s < criteria.coarse * step);
   }
-  coarse_ = true;
+  if (std::ranges::find(coarse_, true) == coarse_.end()) coarse_.clear();
 }
 
 std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
@@ -329,7 +346,7 @@ std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
       x.push_back((about(row, 0) - 2 * about(row + k, 0) + about(row + 2 * k, 0)) / std::sqrt(6.0));
     // Equal readings are no noise of zero: what rounding of numbers leaves would be the scale.
     const double step = observations_.step[index(i)] / fit.design.reference[index(i)];
-    out.size[i] = std::max(scale_of(std::move(x)), step / std::sqrt(12.0));
+    out.size[i] = std::max(scale_of(std::move(x)), step / std::sqrt(12 * mean_readouts()));
   }
   if (!(out.size.minCoeff() > 0)) return std::nullopt;
   // The median has 0.37 of the information of the mean square, and second differences about half of the readings'.

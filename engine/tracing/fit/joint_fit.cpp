@@ -364,8 +364,4 @@ void Fitter::settle(JointFit& fit) const {
   }
 }
 
-bool declares_display_alone(const JointFit& fit, const std::vector<Index>& rows) {
-  return fit.noise * least_scale(fit.design, rows) >= criteria.display_alone;
-}
-
 } // namespace gumshoe::tracing

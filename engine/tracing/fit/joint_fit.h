@@ -48,10 +48,6 @@ Index first_column(const JointFit& fit, std::size_t term);
 /// Standard uncertainty of each size of a term, SI.
 Vector uncertainties(const JointFit& fit, std::size_t term);
 
-/// Whether the declared noise of these rows is that of a display alone, near enough: how readings repeat is not
-/// declared.
-bool declares_display_alone(const JointFit& fit, const std::vector<Index>& rows);
-
 /// How large a term is with which readings jump, or was when it was started: the length of all its sizes, SI.
 double found_size(const Term& term);
 
@@ -177,14 +173,17 @@ private:
   void find_fitted();
   /// Quantities whose steps (of both signs) the readings do not follow like a smooth function.
   std::set<std::size_t> not_smooth(const std::map<std::size_t, double>& steps) const;
+  /// Whether the noise of any indication is declared by more than its display, or nothing else can be known of it.
+  bool declares_noise() const;
   /// Throws InputError if noise is declared, and an indication has none that differs from reading to reading.
   void need_independent_noise() const;
   /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
   void find_covariance_models();
   /// Whether readings were recorded in steps so coarse that rounding repeats, by the scatter of readings that come
-  /// back: of several indications, all of them.
+  /// back.
   void find_coarse();
+  double mean_readouts() const; ///< of a reading
   /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
   struct Scatter {
     Vector size;  ///< by indication, SI
@@ -247,7 +246,7 @@ private:
   bool noise_declared_ = false;
   Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
   Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
-  bool coarse_ = false;               ///< as Design::coarse
+  std::vector<bool> coarse_;          ///< as Design::coarse
   std::optional<NoiseGrowth> growth_; ///< of noise that is not declared; this or the next
   std::optional<NoiseByLabel> by_label_;
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending

@@ -29,7 +29,11 @@ bool Fitter::linearise(JointFit& fit) const {
   d.coarse = coarse_;
   d.covariance_models = covariance_models_;
   d.reading.clear();
-  for (const std::size_t r : o.sequence) d.reading.insert(d.reading.end(), o.indications, r);
+  d.readouts.clear();
+  for (const std::size_t r : o.sequence) {
+    d.reading.insert(d.reading.end(), o.indications, r);
+    d.readouts.push_back(o.readouts[r]);
+  }
   set_fixed(derivative, wanted, fit);
   // Declared draws: over the steps that they take.
   for (std::size_t i = 0; i < responses_.size(); ++i)

@@ -31,8 +31,6 @@ std::optional<Search> with_some_set_aside(const TraceContext& c, const Search& a
 Search search(const TraceContext& c) {
   Search all = search_in_rounds(c, {.shapes_for_noise = false});
   if (!larger_noise(all)) return all;
-  // How readings repeat is larger than nothing: no reason to seek a shape in its place.
-  if (declares_display_alone(all.found, c.fitter.rows())) return all;
   if (auto without = with_some_set_aside(c, all)) return std::move(*without);
   return search_in_rounds(c);
 }

@@ -26,7 +26,8 @@ Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
   const Vector residual = fit.residual(c.fitter.rows());
   Vector predicted = -residual;
   for (Index i = 0; i < predicted.size(); ++i) predicted[i] += measured(c, fit.design, c.fitter.rows()[index(i)]);
-  out.steps = CoarseSteps(fit.design, std::move(predicted), out.pure.scale(residual)[0], out.pure.freedom());
+  out.steps = CoarseSteps(fit.design, c.fitter.rows(), std::move(predicted), out.pure.scale_by_indication(residual),
+                          out.pure.freedom() / static_cast<double>(fit.design.indications));
   return out;
 }
 

@@ -32,18 +32,26 @@ double noise_before_steps(double scatter, double step) {
 
 /// Readings that are all equal do not show that they have no noise: while one in all is expected to be off by a step, it
 /// is likely that none is. It leaves half the square of a step about the mean of two.
-CoarseSteps::CoarseSteps(const Design& d, Vector predicted, double scatter, double freedom)
+CoarseSteps::CoarseSteps(const Design& d, const std::vector<Index>& rows, Vector predicted, const Vector& scatter,
+                         double freedom)
     : predicted_(std::move(predicted)) {
-  for (std::size_t k = 0; d.coarse && k < d.step.size(); ++k) {
-    const double q = d.step[k], s = std::hypot(scatter * d.reference[k], q / std::sqrt(2 * freedom));
+  double readouts = 0; // of a reading, on average
+  for (const Index row : rows) {
+    readouts_.push_back(static_cast<int>(readouts_of_row(d, row)));
+    readouts += readouts_of_row(d, row) / static_cast<double>(rows.size());
+  }
+  for (std::size_t k = 0; k < d.coarse.size(); ++k) {
+    const double q = d.coarse[k] ? d.step[k] : 0;
+    const double s = std::hypot(scatter[index(k)] * d.reference[k] * std::sqrt(readouts), q / std::sqrt(2 * freedom));
     step_.push_back(q);
-    noise_.push_back(noise_before_steps(s, q) / d.reference[k]);
+    each_.push_back(q > 0 ? noise_before_steps(s, q) : 0);
+    noise_.push_back(each_.back() / std::sqrt(readouts) / d.reference[k]);
   }
 }
 
 std::vector<double> CoarseSteps::share(double s) const {
   std::vector<double> out;
-  for (const double noise : noise_) out.push_back(noise / s);
+  for (std::size_t k = 0; k < noise_.size(); ++k) out.push_back(step_[k] > 0 ? noise_[k] / s : 1);
   return out;
 }
 
@@ -52,12 +60,20 @@ Matrix CoarseSteps::read(Matrix drawn, const Draws& draws, std::uint64_t seed) c
   std::vector<double> place((draws.count + 1) / 2 * 2);
   for (Index k = 0; k < indications; ++k) {
     const double q = step_[index(k)];
+    if (!(q > 0)) continue;
     random::uniforms({seed, static_cast<std::uint32_t>(k + 1), 6, 0}, draws.first, place.size(), place.data());
-    for (Index j = 0; j < drawn.cols(); ++j)
-      for (Index i = k; i < drawn.rows(); i += indications) {
-        const double value = predicted_[i] + q * place[index(j)];
-        drawn(i, j) = q * std::round((value + drawn(i, j)) / q) - value;
+    for (Index i = k; i < drawn.rows(); i += indications) {
+      const int n = readouts_[index(i)];
+      // How the readouts of a mean differ from it.
+      const Matrix apart = n > 1 ? Matrix(each_[index(k)] * normals(index(n), draws, seed + index(i) + 1, 7))
+                                 : Matrix(Matrix::Zero(1, drawn.cols()));
+      for (Index j = 0; j < drawn.cols(); ++j) {
+        const double value = predicted_[i] + q * place[index(j)], mean = value + drawn(i, j) - apart.col(j).mean();
+        double sum = 0;
+        for (Index one = 0; one < n; ++one) sum += q * std::round((mean + apart(one, j)) / q);
+        drawn(i, j) = sum / n - value;
       }
+    }
   }
   return drawn;
 }

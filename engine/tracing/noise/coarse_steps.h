@@ -20,19 +20,27 @@ class CoarseSteps {
 public:
   /// Steps are not coarse.
   CoarseSteps() = default;
-  /// @param predicted  values of the chosen rows by the model, SI
-  /// @param scatter    of readings of one place, in units of the design's noise, and its degrees of freedom
-  CoarseSteps(const Design& design, Vector predicted, double scatter, double freedom);
+  /// @param rows       chosen rows
+  /// @param predicted  their values by the model, SI
+  /// @param scatter    of readings of one place, by indication, in units of the design's noise
+  /// @param freedom    degrees of freedom of each of them
+  CoarseSteps(const Design& design, const std::vector<Index>& rows, Vector predicted, const Vector& scatter,
+              double freedom);
 
   bool any() const { return !noise_.empty(); }
-  /// By indication, the standard deviation of the noise before it is read over `s` times that of the design.
+  /// By indication, the standard deviation of the noise before it is read over `s` times that of the design; 1 where
+  /// steps are not coarse.
   std::vector<double> share(double s) const;
-  /// Draws (chosen rows x sets, SI) as they are read. Where between two steps the values lie is drawn, too.
+  /// Draws (chosen rows x sets, SI) as they are read, each readout of a mean by itself. Where between two steps the
+  /// values lie is drawn, too.
   Matrix read(Matrix drawn, const Draws& draws, std::uint64_t seed) const;
 
 private:
-  std::vector<double> noise_; ///< by indication, before it is read, in units of the design's noise; empty: not coarse
-  std::vector<double> step_;  ///< by indication, SI
+  std::vector<double>
+      noise_; ///< by indication, before it is read, in units of the design's noise; empty: none is coarse
+  std::vector<double> step_;  ///< by indication, SI; 0: not coarse
+  std::vector<double> each_;  ///< by indication: standard deviation of the noise of a readout, SI
+  std::vector<int> readouts_; ///< by chosen row
   Vector predicted_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "tracing/criteria.h"
 #include "tracing/noise/sparse_columns.h"
@@ -30,15 +31,28 @@ double noise_of_row(const Design& design, Index row) {
   return design.local[index(row / k)].row(row % k).norm();
 }
 
+double readouts_of_row(const Design& d, Index row) {
+  return d.readouts.empty() ? 1 : d.readouts[index(row) / d.indications];
+}
+
 double least_scale(const Design& d, const std::vector<Index>& rows) {
   if (d.step.empty() || rows.empty()) return 0;
   double squares = 0;
-  for (const Index row : rows) squares += std::pow(d.step[index(row) % d.indications] / noise_of_row(d, row), 2);
+  for (const Index row : rows) {
+    const std::size_t k = index(row) % d.indications;
+    // What coarse steps do to one readout they do to all of the mean.
+    const double each = !d.coarse.empty() && d.coarse[k] ? 1 : readouts_of_row(d, row);
+    squares += std::pow(d.step[k] / noise_of_row(d, row), 2) / each;
+  }
   return std::sqrt(squares / 12 / static_cast<double>(rows.size()));
 }
 
 double hidden_squares(const Design& d, const std::vector<Index>& rows) {
-  return d.coarse ? static_cast<double>(rows.size()) * std::pow(least_scale(d, rows), 2) : 0;
+  std::vector<Index> coarse;
+  if (!d.coarse.empty())
+    std::ranges::copy_if(rows, std::back_inserter(coarse),
+                         [&](Index row) { return d.coarse[index(row) % d.indications]; });
+  return static_cast<double>(coarse.size()) * std::pow(least_scale(d, coarse), 2);
 }
 
 std::vector<Index> insensitive(const Design& d, const std::vector<Index>& rows) {

@@ -30,14 +30,18 @@ struct Design {
   std::vector<Matrix> bends;     ///< rows x nodes: response to a draw of bend_node(j) in addition to U
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
-  std::vector<double> step;      ///< by indication: in which its readings were recorded; empty: not known
-  bool coarse = false;           ///< readings scatter so little that rounding to these steps comes back
+  std::vector<double> step;      ///< by indication: in which its readouts were recorded; empty: not known
+  std::vector<int> readouts;     ///< by place in the sequence: of how many it is the mean; empty: of one
+  /// By indication, whether its readings scatter so little that rounding to these steps comes back; empty: none does.
+  std::vector<bool> coarse;
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
   std::vector<CovarianceModel> covariance_models; ///< those that are tried; empty: all
 };
 
 /// Standard uncertainty of the noise of a row, SI.
 double noise_of_row(const Design& design, Index row);
+/// Of how many readouts a row is the mean.
+double readouts_of_row(const Design& design, Index row);
 
 /// What the steps in which readings were recorded give at least as the standard deviation of the chosen rows, in units
 /// of their noise: their root mean square. No robust scale may be less, or most residuals could be equal and the others
@@ -45,7 +49,8 @@ double noise_of_row(const Design& design, Index row);
 double least_scale(const Design& design, const std::vector<Index>& rows);
 
 /// Sum of squares of the chosen rows, in units of the noise, that coarse steps may hide: a reading is not known better
-/// than to q / sqrt(12), however well it comes back (JCGM 100, F.2.2.1). 0 where no step is coarse.
+/// than to q / sqrt(12), however well it comes back (JCGM 100, F.2.2.1). Of indications whose steps are not coarse,
+/// none.
 double hidden_squares(const Design& design, const std::vector<Index>& rows);
 
 /// Columns of Design::fixed that the chosen rows can distinguish, in the order in which they are declared: a column

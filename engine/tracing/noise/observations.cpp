@@ -252,10 +252,17 @@ Observations observe(const propagation::Experiment& e) {
                           "add [indications.NAME] with readings, or use --data");
     o.measured.insert(o.measured.end(), r.indications.begin(), r.indications.end());
   }
+  // Means of n readouts come in steps of the display over n; of too many different n, in none that can be told.
+  constexpr long most = 1000;
+  long together = 1;
+  for (const auto& r : s.readings) {
+    o.readouts.push_back(r.repeats);
+    together = together > most ? 0 : std::lcm(together, static_cast<long>(r.repeats));
+  }
   std::vector<double> one(o.readings);
   for (std::size_t i = 0; i < o.indications; ++i) {
     for (std::size_t r = 0; r < o.readings; ++r) one[r] = s.readings[r].indications[i];
-    o.step.push_back(recorded_step(one));
+    o.step.push_back(recorded_step(one, together, s.quantities[e.layout().indications[i]].display_alone));
   }
   o.sequence = sequence_of(s);
   for (std::size_t r = 0; r < o.readings; ++r)

@@ -51,7 +51,8 @@ struct Observations {
   std::vector<bool> held_out; ///< by reading
   std::vector<std::string> holdout_blocks;
   std::vector<double> measured;        ///< [reading][indication], SI
-  std::vector<double> step;            ///< by indication: in which it was recorded, SI (step.h)
+  std::vector<double> step;            ///< by indication: in which readouts were recorded, SI (step.h)
+  std::vector<int> readouts;           ///< by reading: of how many it is the mean
   std::vector<std::string> statements; ///< what the design of the data leaves undetermined
   std::vector<std::string> names;      ///< names of the indications
   bool one_kind = true;                ///< their SI units are one: not um and arcsec

@@ -234,6 +234,15 @@ Vector PureError::scale(const Matrix& residuals) const {
   return (clean.squares.array() / clean.freedom.array()).sqrt();
 }
 
+Vector PureError::scale_by_indication(const Vector& residual) const {
+  const Cleaned clean = cleaned(residual);
+  const Matrix left = pure_(clean.data);
+  const auto indications = index(design_.indications);
+  Vector out = Vector::Zero(indications);
+  for (Index i = 0; i < left.rows(); ++i) out[rows_[index(i)] % indications] += left(i, 0) * left(i, 0);
+  return (out * static_cast<double>(indications) / clean.freedom[0]).cwiseSqrt();
+}
+
 Vector PureError::lack_of_fit(const Matrix& residuals) const {
   if (with_.rank() == without_.rank()) return Vector::Zero(residuals.cols()); // a table holds the cells' constants
   const Matrix clean = cleaned(residuals).data;

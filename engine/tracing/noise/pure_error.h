@@ -28,6 +28,8 @@ public:
   std::size_t cells() const { return cells_; }
   /// Standard deviation of the pure error of each column (chosen rows, SI), in units of the design's noise.
   Vector scale(const Matrix& residuals) const;
+  /// The same of one residual by indication, each with its share of the degrees of freedom.
+  Vector scale_by_indication(const Vector& residual) const;
   /// n ln of the sum of squares without over that with the cells' constants, by column of residuals.
   Vector lack_of_fit(const Matrix& residuals) const;
   /// Root mean square of what repeats in one residual, in units of the design's noise; less what the pure error gives.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -33,6 +34,14 @@ double recorded_step(std::span<const double> values) {
     step = a;
   }
   return step.size;
+}
+
+double recorded_step(std::span<const double> values, long together, double stated) {
+  const double found = static_cast<double>(together) * recorded_step(values);
+  constexpr double whole = 1e-3; // of a step
+  if (!(stated > 0)) return found;
+  if (found == 0) return std::ranges::adjacent_find(values, std::not_equal_to()) == values.end() ? stated : 0;
+  return std::fabs(std::remainder(found, stated)) < whole * stated && found > stated / 2 ? stated : found;
 }
 
 } // namespace gumshoe::tracing

@@ -104,16 +104,6 @@ public:
     for (const MoreNoise& one : larger_noise(fit_, f)) of_noise(one.indication, one.u, {"reading"}, source_of(f));
   }
 
-  /// How readings repeat on a display, where the display alone is declared.
-  void beyond_display() {
-    const bool found = std::ranges::any_of(out_.findings, [&](const Finding& f) { return !larger_noise(fit_, f).empty(); });
-    if (found || !declares_display_alone(fit_, c_.fitter.rows())) return;
-    for (const MoreNoise& one : beyond_declared(fit_))
-      if (one.u > 0)
-        of_noise(one.indication, one.u, {"reading"},
-                 "scatter of these readings beyond the step of their display; no finding of its own");
-  }
-
   /// What the readings of a group share: a finding of its own or not, new readings scatter so.
   void shared(const Component& component) {
     const auto& labels = component.group->labels;
@@ -174,11 +164,18 @@ public:
         if (const double own = differs->freedom[i][index(least - ratio.begin())]; own > 0)
           freedom = std::min(freedom, own);
       }
-      of_noise(i, u, {"reading"}, source, freedom);
+      of_noise(i, beyond_display(i, u), {"reading"}, source, freedom);
     }
   }
 
 private:
+  /// What the noise of an indication has in addition to the step of its display, which stays declared.
+  double beyond_display(std::size_t indication, double u) const {
+    const auto& s = c_.experiment.scenario();
+    const double step = s.quantities[c_.experiment.layout().indications[indication]].display_alone;
+    return std::sqrt(std::max(0.0, u * u - step * step / 12));
+  }
+
   /// A stated effect whose size is noise, of a reading each.
   static Correction noise_effect(const VariableCard& card, const std::string& by, const char* how,
                                  const std::string& source) {
@@ -219,10 +216,7 @@ void add_components(const TraceContext& c, const Search& s, const std::vector<Ve
     if (out.findings[i].kind == Kind::not_in_catalogue)
       components.not_in_catalogue(s.findings[i], out.findings[i], left);
   for (const Component& one : scatter.components) components.shared(one);
-  if (!c.fitter.noise_declared())
-    components.estimated(scatter);
-  else
-    components.beyond_display();
+  if (!c.fitter.noise_declared()) components.estimated(scatter);
 }
 
 } // namespace gumshoe::tracing
