@@ -135,6 +135,7 @@ private:
       stated.formula.name = std::string("choose.time.") + name;
       stated.formula.text = formula.text;
       stated.formula.where = formula.where;
+      out->text_ += fmt::format("{}{} = {}", out->text_.empty() ? "" : ", ", name, formula.text);
       statement.measurands.push_back(std::move(stated));
       return static_cast<int>(statement.measurands.size()) - 1;
     };
@@ -165,6 +166,11 @@ private:
     }
     out->quantities_ = named_;
     out->constants_ = constants_;
+    for (std::size_t i = 0; i < constants_.size(); ++i) {
+      const Symbol& s = symbols_[named_.size() + i];
+      if (used_.contains(s.name))
+        out->text_ += fmt::format("; {} {:.12g}{}", s.name, constants_[i], units::suffix(s.si_unit));
+    }
     return out;
   }
 

@@ -15,6 +15,8 @@ public:
   /// `quantities[reading]`: values by position in the scenario. NaN or infinite where a formula has no value.
   double seconds(const std::vector<quantities::Reading>& readings,
                  const std::vector<std::vector<double>>& quantities) const;
+  /// Its formulas, and the constants in them: "per_reading = 2 * t, once = 10 s; t 1 s".
+  const std::string& text() const { return text_; }
 
 private:
   friend class TimeReader;
@@ -24,6 +26,7 @@ private:
   std::vector<std::size_t> quantities_; ///< positions of those that formulas can name
   std::vector<double> constants_;       ///< SI, after them
   int per_reading_ = -1, once_ = -1;    ///< of the formulas; -1: none
+  std::string text_;
 };
 
 Shape time_shape();

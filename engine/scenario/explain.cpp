@@ -7,9 +7,11 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "scenario/analysis.h"
+#include "scenario/choose_time.h"
 #include "scenario/options.h"
 #include "scenario/plan_options.h"
 #include "scenario/trace.h"
+#include "scenario/volume.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -149,8 +151,23 @@ void explain(const Choose& c, const ModelCard& model, Lines out) {
       fmt::format_to(out, "{} {} {}", i > 0 ? "," : "", list[i].knob.name, shown(list[i].knob, list[i].value));
     fmt::format_to(out, "\n");
   };
+  for (std::size_t e = 0; e < c.time.size(); ++e)
+    if (c.time[e]) fmt::format_to(out, "  time of {}: {}\n", model.evaluations[e].name, c.time[e]->text());
   for (const ChooseCase& one : c.cases) fmt::format_to(out, "  case {}:", one.name), settings(one.values);
   for (const ChooseCompare& one : c.compare) fmt::format_to(out, "  compare {}:", one.name), settings(one.settings);
+}
+
+void explain(const Volume& v, Lines out) {
+  const auto axes = v.chain->card->conditions;
+  const auto at = [&](double x, const VariableCard& axis) { return both(x, axis.unit, axis.si_unit); };
+  fmt::format_to(out, "volume\n  {} points, {} samples\n", v.points(), v.samples);
+  for (const VolumeRange& r : v.ranges)
+    fmt::format_to(out, "  {}: {} to {}, {} points\n", axes[r.axis].name, at(r.from, axes[r.axis]),
+                   at(r.to, axes[r.axis]), r.points);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (std::ranges::find(v.ranges, i, &VolumeRange::axis) == v.ranges.end())
+      fmt::format_to(out, "  {} {}\n", axes[i].name, at(v.commands[i], axes[i]));
+  if (v.tool) fmt::format_to(out, "  tool at {:.12g} m\n", fmt::join(*v.tool, " m, "));
 }
 
 void explain(const Plan& p, Lines out) {
@@ -230,6 +247,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   for (const StatedEffect& e : s.stated_effects) explain(e, *model, out);
   explain_options(s, evaluated_card(*model, s.evaluation), out);
   if (s.choose) explain(*s.choose, *model, out);
+  if (const auto volume = stated_volume(s)) explain(*volume, out);
   if (s.plan) explain(*s.plan, out);
   if (s.trace.stated) explain(s.trace, out);
   const std::vector<std::string> notes = notes_of_a_run(s);

@@ -117,19 +117,23 @@ Volume read_volume(Table table, Table& top, Problems& problems) {
   return VolumeReader(std::move(table), problems).read(top);
 }
 
-Volume volume_of(const Scenario& scenario) {
+std::optional<Volume> stated_volume(const Scenario& scenario) {
   const Node document = parse_document(scenario.text, scenario.file);
   Problems problems(scenario.file);
   Table top(document, "", problems);
   auto table = top.table("volume");
-  if (!table)
-    throw InputError({{{scenario.file},
-                       "[volume] is missing",
-                       "it says over which commands the errors are mapped",
-                       "[volume] X = { from = \"0 mm\", to = \"500 mm\", points = 6 }"}});
+  if (!table) return std::nullopt;
   Volume out = read_volume(*table, top, problems);
   problems.raise();
   return out;
+}
+
+Volume volume_of(const Scenario& scenario) {
+  if (auto stated = stated_volume(scenario)) return std::move(*stated);
+  throw InputError({{{scenario.file},
+                     "[volume] is missing",
+                     "it says over which commands the errors are mapped",
+                     "[volume] X = { from = \"0 mm\", to = \"500 mm\", points = 6 }"}});
 }
 
 } // namespace gumshoe::scenario

@@ -103,6 +103,12 @@ class Choose(InFolder):
             for constant in model["time_constants"]:
                 self.assertIn(f"  {constant['name']} ", said.partition("constants of the measuring time")[2])
 
+    def test_the_scenario_as_understood_shows_the_time(self):
+        self.file.write_text(TEXT)
+        run = gumshoe("check", self.file, "--explain")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("per_reading = way / feed + retract, once = start; way 0.005 m; retract 0.5 s; start 5 s\n", run.stdout)
+
     def test_answer_and_formats(self):
         said = self.choose()
         self.assertEqual(said.returncode, 0, said.stderr)

@@ -117,6 +117,12 @@ source = "one fit"
         self.assertAlmostEqual(found[0]["linear_u"] / found[1]["linear_u"], 1, delta=0.01)
         self.assertAlmostEqual(sum(c["share"] for c in found[0]["causes"]), 1, delta=1e-12)
 
+    def test_the_scenario_as_understood_shows_the_volume(self):
+        run = gumshoe("check", SHIPPED, "--explain")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("volume\n  189 points, 10000 samples\n  X: -0.2 m (-200 mm) to 0.2 m (200 mm), 9 points\n", run.stdout)
+        self.assertIn("\n  C 0.785398163397 rad (45 deg)\n", run.stdout)
+
     def test_a_map_has_no_samples_to_replay_or_analyse(self):
         self.map(THREE + '[quantities]\nE_XX = { value = "10 um", u = "3 um" }\n' + CUBE)
         for command in (("replay", "v.h5", "--sample", 0), ("analyse", "v.h5")):
