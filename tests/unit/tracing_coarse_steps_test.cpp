@@ -130,7 +130,14 @@ TEST_CASE("each readout of a mean is read by itself", "[tracing]") {
     within += (read.col(j).array() - read.col(j).mean()).square().sum() / 29;
   }
   CHECK(std::sqrt(within / sets) == Approx(scatter).epsilon(0.02)); // where the place lies changes it little
-  Design fine = d;                                                  // rounding is independent of so much noise
+  // How readouts scatter is known better from themselves, unless their means surely scatter more.
+  const auto noise_of_mean = [&](double between, double within) {
+    const Vector means = Vector::Constant(1, scatter_read(between * um, um) / 2 / (0.1 * um));
+    return CoarseSteps(d, all(), Vector::Zero(30), means, 50, {{scatter_read(within * um, um)}, 1e9}).share(1)[0] * 0.1;
+  };
+  CHECK(noise_of_mean(0.3, 0.2) == Approx(0.1).epsilon(1e-4)); // of four
+  CHECK(noise_of_mean(0.6, 0.2) == Approx(0.3).epsilon(0.02));
+  Design fine = d; // rounding is independent of so much noise
   fine.coarse.clear();
   CHECK(least_scale(fine, all()) == Approx(10 / std::sqrt(12.0) / 2));
 }

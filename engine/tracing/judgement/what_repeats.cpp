@@ -27,7 +27,7 @@ Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
   Vector predicted = -residual;
   for (Index i = 0; i < predicted.size(); ++i) predicted[i] += measured(c, fit.design, c.fitter.rows()[index(i)]);
   out.steps = CoarseSteps(fit.design, c.fitter.rows(), std::move(predicted), out.pure.scale_by_indication(residual),
-                          out.pure.freedom() / static_cast<double>(fit.design.indications));
+                          out.pure.freedom() / static_cast<double>(fit.design.indications), c.observations.of_readouts);
   return out;
 }
 

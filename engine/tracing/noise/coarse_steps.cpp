@@ -30,10 +30,16 @@ double noise_before_steps(double scatter, double step) {
   return (low + high) / 2;
 }
 
+namespace {
+
+constexpr double sure = 6; ///< standard deviations of a variance of normal noise
+
+} // namespace
+
 /// Readings that are all equal do not show that they have no noise: while one in all is expected to be off by a step, it
 /// is likely that none is. It leaves half the square of a step about the mean of two.
 CoarseSteps::CoarseSteps(const Design& d, const std::vector<Index>& rows, Vector predicted, const Vector& scatter,
-                         double freedom)
+                         double freedom, const ReadoutScatter& within)
     : predicted_(std::move(predicted)) {
   double readouts = 0; // of a reading, on average
   for (const Index row : rows) {
@@ -42,10 +48,15 @@ CoarseSteps::CoarseSteps(const Design& d, const std::vector<Index>& rows, Vector
   }
   for (std::size_t k = 0; k < d.coarse.size(); ++k) {
     const double q = d.coarse[k] ? d.step[k] : 0;
-    const double s = std::hypot(scatter[index(k)] * d.reference[k] * std::sqrt(readouts), q / std::sqrt(2 * freedom));
+    const auto noise = [&](double s, double of) {
+      return q > 0 ? noise_before_steps(std::hypot(s, q / std::sqrt(2 * of)), q) : 0;
+    };
+    const double between = scatter[index(k)] * d.reference[k] * std::sqrt(readouts); // as one readout would
     step_.push_back(q);
-    each_.push_back(q > 0 ? noise_before_steps(s, q) : 0);
-    noise_.push_back(each_.back() / std::sqrt(readouts) / d.reference[k]);
+    each_.push_back(within.freedom > 0 ? noise(within.s[k], within.freedom) : noise(between, freedom));
+    // Means scatter more than their readouts tell only if they surely do: what is off by a step is rare.
+    const bool alike = within.freedom > 0 && std::pow(between / within.s[k], 2) < 1 + sure * std::sqrt(2 / freedom);
+    noise_.push_back((alike ? each_.back() : noise(between, freedom)) / std::sqrt(readouts) / d.reference[k]);
   }
 }
 

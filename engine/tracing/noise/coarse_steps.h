@@ -24,8 +24,9 @@ public:
   /// @param predicted  their values by the model, SI
   /// @param scatter    of readings of one place, by indication, in units of the design's noise
   /// @param freedom    degrees of freedom of each of them
+  /// @param readouts   how the readouts of a mean scatter: that of the means tells of fewer
   CoarseSteps(const Design& design, const std::vector<Index>& rows, Vector predicted, const Vector& scatter,
-              double freedom);
+              double freedom, const ReadoutScatter& readouts = {});
 
   bool any() const { return !noise_.empty(); }
   /// By indication, the standard deviation of the noise before it is read over `s` times that of the design; 1 where

@@ -1,6 +1,7 @@
 #include "tracing/noise/observations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -67,6 +68,17 @@ std::vector<std::size_t> sequence_of(const Scenario& s) {
     return std::tie(s.trace.order[a], x.labels, x.conditions, x.indications) <
            std::tie(s.trace.order[b], y.labels, y.conditions, y.indications);
   });
+  return out;
+}
+
+ReadoutScatter scatter_of_readouts(const Scenario& s, std::size_t indications) {
+  ReadoutScatter out{std::vector<double>(indications, 0), 0};
+  for (const auto& r : s.readings) {
+    if (r.scatter.size() != indications) continue;
+    out.freedom += r.repeats - 1;
+    for (std::size_t i = 0; i < indications; ++i) out.s[i] += r.scatter[i];
+  }
+  for (double& one : out.s) one = out.freedom > 0 ? std::sqrt(one / out.freedom) : 0;
   return out;
 }
 
@@ -264,6 +276,7 @@ Observations observe(const propagation::Experiment& e) {
     for (std::size_t r = 0; r < o.readings; ++r) one[r] = s.readings[r].indications[i];
     o.step.push_back(recorded_step(one, together, s.quantities[e.layout().indications[i]].display_alone));
   }
+  o.of_readouts = scatter_of_readouts(s, o.indications);
   o.sequence = sequence_of(s);
   for (std::size_t r = 0; r < o.readings; ++r)
     o.order.push_back(s.trace.order.empty() ? static_cast<double>(r + 1) : s.trace.order[r]);

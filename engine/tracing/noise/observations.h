@@ -35,6 +35,12 @@ struct Grouping {
   std::vector<std::vector<std::string>> values = {}; ///< by group: of each label, as the readings have them
 };
 
+/// How the readouts of one reading scatter about their mean, pooled over readings.
+struct ReadoutScatter {
+  std::vector<double> s; ///< by indication: standard deviation of one readout, SI
+  double freedom = 0;    ///< degrees of freedom of each; 0: no reading has several
+};
+
 struct Observations {
   std::size_t readings = 0, indications = 0;
   /// Readings in the order of measurement, the same for shuffled rows where an order is stated.
@@ -53,6 +59,7 @@ struct Observations {
   std::vector<double> measured;        ///< [reading][indication], SI
   std::vector<double> step;            ///< by indication: in which readouts were recorded, SI (step.h)
   std::vector<int> readouts;           ///< by reading: of how many it is the mean
+  ReadoutScatter of_readouts;
   std::vector<std::string> statements; ///< what the design of the data leaves undetermined
   std::vector<std::string> names;      ///< names of the indications
   bool one_kind = true;                ///< their SI units are one: not um and arcsec
