@@ -345,8 +345,11 @@ private:
         return true;
       }
       if (instead.shape) {
-        const auto lasts = sought_.steps_last ? same_that_lasts(c_, *evidence_, *instead.shape) : std::nullopt;
-        const JointFit fit = lasts ? evidence_->with({evidence_->linear_term(*lasts)}) : JointFit();
+        auto lasts = sought_.steps_last ? same_that_lasts(c_, *evidence_, *instead.shape) : std::nullopt;
+        JointFit fit = lasts ? evidence_->with({evidence_->linear_term(*lasts)}) : JointFit();
+        if (sought_.steps_last && !lasts)
+          if (auto step = step_in_place_of(c_, *evidence_, evidence_->trial(*instead.shape)))
+            lasts = step->candidate, fit = std::move(step->fit);
         if (lasts && fit.valid)
           add_shape(*lasts, fit, found->finding.p_value);
         else

@@ -101,6 +101,13 @@ void settle_steps(const TraceContext& c, const Evidence& e, std::vector<Trial>& 
   std::erase_if(tried, [&](const Trial& t) { return t.candidate == refuted; });
 }
 
+/// Whether a pulse is more than half of its height in the last of the fitted readings.
+bool goes_on(const TraceContext& c, const Candidate& pulse) {
+  const Vector fitted = pulse.columns(c.fitter.rows(), 0).cwiseAbs();
+  const Index k = index(c.observations.indications);
+  return fitted.tail(k).maxCoeff() > 0.5 * fitted.maxCoeff();
+}
+
 void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
   if (!c.fitter.noise_declared() || scatters_as_declared(c, tried[0].fit)) return;
   const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
@@ -137,11 +144,37 @@ std::optional<std::size_t> same_that_lasts(const TraceContext& c, const Evidence
   return std::nullopt;
 }
 
+std::optional<Trial> step_in_place_of(const TraceContext& c, const Evidence& e, const Trial& course) {
+  const Candidate& best = e.candidates()[course.candidate];
+  const auto part = [&](const Candidate& a) {
+    return a.name.substr(without_indication(a.name, c.observations).size());
+  };
+  if (!best.name.starts_with("shift:") && !(best.name.starts_with("pulse:") && goes_on(c, best))) return std::nullopt;
+  std::optional<std::size_t> step;
+  for (std::size_t b = 0; b < e.candidates().size(); ++b) {
+    const Candidate& one = e.candidates()[b];
+    if (is_lasting_step(one, c.observations) && one.depends_on == best.depends_on && part(one) == part(best) &&
+        (!step || e.score(b) > e.score(*step)))
+      step = b;
+  }
+  if (!step) return std::nullopt;
+  Trial out = e.trial(*step);
+  const double lead = course.score - out.score;
+  if (!out.fit.valid || shape_excludes(lead, [&] { return e.chance_of_lead(course.candidate, *step, lead); }))
+    return std::nullopt;
+  return out;
+}
+
 void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
   straighten(c, e, tried);
   drift_before_blocks(c, e, tried);
   lower_power(c, e, tried);
   leave_declared_noise(c, e, tried);
+  if (steps_last)
+    if (auto step = step_in_place_of(c, e, tried[0])) {
+      std::erase_if(tried, [&](const Trial& t) { return t.candidate == step->candidate; });
+      tried.insert(tried.begin(), std::move(*step));
+    }
   settle_steps(c, e, tried, steps_last);
 }
 

@@ -11,7 +11,8 @@ namespace gumshoe::tracing {
 /// line in time before blocks that differ; a lower power before a higher one. Then, where noise is declared, a shape of
 /// one size that leaves noise as it was declared goes before one that leaves more, for which correlated noise would
 /// have to make up: a jump before a cubic in time.
-/// At last a step in time and a block, or a pass, that differs, where they are the same in what is fitted.
+/// A step in time goes before a pulse that is not over in what is fitted, and before a gradual change, that do not
+/// exclude it. At last a step and a block, or a pass, that differs, where they are the same in what is fitted.
 /// @param tried       best first, at least one
 /// @param steps_last  a step lasts; false: that was refuted, and the block differs
 void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried, bool steps_last);
@@ -23,6 +24,10 @@ bool is_lasting_step(const Candidate& candidate, const Observations& observation
 /// the last block says the same as a step that begins with it, and of aligned blocks any does. A change is expected to
 /// last; held-out readings tell. There are more instants than blocks, so that the step need not pass by itself.
 std::optional<std::size_t> same_that_lasts(const TraceContext& context, const Evidence& evidence, std::size_t shape);
+
+/// The step in time that goes before a pulse which is not over in what is fitted, or before a gradual change, unless
+/// their lead excludes it: between sessions nobody sees whether something changed at once.
+std::optional<Trial> step_in_place_of(const TraceContext& context, const Evidence& evidence, const Trial& course);
 
 /// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
 /// takes that of errors that are zero at either end.
