@@ -1,6 +1,7 @@
 /// What a trace says to a machinist.
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 
@@ -54,5 +55,24 @@ TEST_CASE("what the held-out readings do not confirm is nothing to correct for y
               return line.find("measure another block before you correct for anything") != line.npos;
             }));
     }
+  }
+}
+
+TEST_CASE("where nothing is found, the sentence says how seldom noise alone gives such residuals",
+          "[tracing][verdict]") {
+  Trace t = made::trace("nothing_found").trace;
+  t.outliers.clear();
+  t.rms.holdout_after_winsorised = 0;
+  t.rms.noise_high = 0.68e-6;
+  for (const auto& [p, before, words] :
+       {std::tuple(0.019, 2.3e-6,
+                   "in 95 % of cases): noise alone gives residuals like these in only 1.9 % of cases: the model"),
+        std::tuple(0.2, 2.3e-6, "in 95 % of cases): the model or the declared noise lacks"), // far beyond one in forty
+        std::tuple(0.2, 0.7e-6, "noise alone gives as much in one case of forty, or the model")}) {
+    t.p_anything = p;
+    t.rms.before = t.rms.after = before;
+    summarise(t);
+    CAPTURE(t.plain[0]);
+    CHECK(t.plain[0].find(words) != std::string::npos);
   }
 }

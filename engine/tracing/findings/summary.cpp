@@ -128,10 +128,16 @@ std::string what_residuals_show(const Trace& t) {
         shown_rms(r.before, r), noise,
         t.outliers.size() == 1 ? "one reading is" : fmt::format("{} readings are", t.outliers.size()),
         t.outliers[0].reading, shown_rms(std::fabs(t.outliers[0].residual), r));
-  if (r.before > r.noise_high)
+  if (r.before > r.noise_high) {
+    const std::string how_often =
+        t.p_anything <= t.alpha
+            ? fmt::format("noise alone gives residuals like these in only {:.2g} % of cases: ", 100 * t.p_anything)
+        : r.before > by_far * r.noise_high ? ""
+                                           : std::string(chance) + " ";
     return fmt::format("No candidate explains the residuals, but those of the training data ({}) are larger than noise "
-                       "alone gives ({}): {} {}",
-                       shown_rms(r.before, r), noise, chance, lacks);
+                       "alone gives ({}): {}{}",
+                       shown_rms(r.before, r), noise, how_often, lacks);
+  }
   // Nothing agrees whose chance is small.
   if (t.p_anything <= t.alpha)
     return fmt::format("No candidate explains the residuals ({}), but noise alone gives residuals like these in only "

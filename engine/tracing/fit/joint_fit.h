@@ -125,6 +125,8 @@ public:
   Points without_draws(JointFit fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
+  /// Whether the noise of each indication is estimated by itself.
+  bool noise_of_each() const { return spread_.minCoeff() < spread_.maxCoeff(); }
   const std::optional<NoiseGrowth>& noise_growth() const { return growth_; }
   const std::optional<NoiseByLabel>& noise_by_label() const { return by_label_; }
   /// Mean variance of an indication's noise that is not declared, in units of relative_variance().
@@ -184,13 +186,10 @@ private:
   /// back.
   void find_coarse();
   double mean_readouts() const; ///< of a reading
-  /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
-  struct Scatter {
-    Vector size;  ///< by indication, SI
-    bool unequal; ///< surely
-  };
-  /// Scatter of readings about the means of their conditions; none, if too few repeat or they do not scatter.
-  std::optional<Scatter> scatter_about_cells() const;
+  /// Where no noise is declared: how much each indication scatters, from what does not repeat; SI.
+  std::optional<Vector> scatter_about_cells() const;
+  /// The same, no less than the steps of the readings give; none if one is zero.
+  std::optional<Vector> at_least_steps(Vector spread) const;
   void find_spread();
   /// Where no noise is declared: whether it grows with a condition.
   void find_growth();

@@ -155,6 +155,7 @@ public:
     for (std::size_t i = 0; i < fit_.design.indications; ++i) {
       double u = fit_.design.reference[i] * std::sqrt(scatter.variance / c_.fitter.mean_variance(i));
       double freedom = scatter.freedom;
+      if (c_.fitter.noise_of_each()) freedom /= static_cast<double>(fit_.design.indications);
       if (const auto& grows = c_.fitter.noise_growth()) growing(i, u * grows->ratio, *grows, source, freedom);
       if (const auto& differs = c_.fitter.noise_by_label()) {
         const auto& ratio = differs->ratio[i];
