@@ -209,25 +209,14 @@ double scale_of(std::vector<double> x) {
 
 void Fitter::find_spread() {
   if (noise_declared_ || observations_.indications == 1) return;
-  const auto rough = scatter_about_cells();
-  if (!observations_.one_kind && !rough)
+  const auto found = scatter_about_cells();
+  if (!observations_.one_kind && !found)
     throw InputError(
         {{propagation::find_line(experiment_.scenario(), "[indications"),
           "indications of different kinds have no noise stated",
           "too few readings of equal conditions tell how much each of them scatters",
           "state u of a reading under each [indications.NAME], or trace each kind in a scenario of its own"}});
-  if (!rough) return;
-  // A scale by the median has 0.37 of what the mean square tells, which needs a scale to leave outliers out.
-  spread_ = *rough;
-  const JointFit fit = linearised(1);
-  const PureError pure(fit.design, rows_, replicates_, threads_);
-  const auto found =
-      at_least_steps(spread_.cwiseProduct(pure.scale_by_indication(fit.residual(rows_)))).value_or(*rough);
-  const double ratio = found.maxCoeff() / found.minCoeff();
-  const double u = std::sqrt(static_cast<double>(observations_.indications) / pure.freedom()); // of its logarithm
-  constexpr double sure = 3;                                                                   // standard deviations
-  const bool unequal = ratio > criteria.unequal_spread && std::log(ratio) > sure * u;
-  spread_ = unequal || !observations_.one_kind ? Vector(found / found[0]) : Vector(Vector::Ones(spread_.size()));
+  if (found && (found->unequal || !observations_.one_kind)) spread_ = found->size / found->size[0];
 }
 
 std::optional<NoiseGrowth> Fitter::growth_without(const std::vector<Index>& bad) const {
@@ -343,28 +332,29 @@ void Fitter::find_coarse() {
   if (std::ranges::find(coarse_, true) == coarse_.end()) coarse_.clear();
 }
 
-std::optional<Vector> Fitter::scatter_about_cells() const {
+std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
   const auto k = index(observations_.indications);
   const JointFit fit = linearised(1);
   if (!fit.valid || rows_.size() < 8 * index(k)) return std::nullopt;
   const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known()) return std::nullopt; // what the model lacks would count as noise
   const Matrix about = pure.about_cells(fit.residual(rows_));
-  Vector out(k);
+  Scatter out{Vector(k), false};
   for (Index i = 0; i < k; ++i) {
     std::vector<double> x; // second differences: of what is smooth in time little is left
     for (Index row = i; row + 2 * k < about.rows(); row += k)
       x.push_back((about(row, 0) - 2 * about(row + k, 0) + about(row + 2 * k, 0)) / std::sqrt(6.0));
-    out[i] = scale_of(std::move(x));
+    // Equal readings are no noise of zero: what rounding of numbers leaves would be the scale.
+    const double step = observations_.step[index(i)] / fit.design.reference[index(i)];
+    out.size[i] = std::max(scale_of(std::move(x)), step / std::sqrt(12 * mean_readouts()));
   }
-  return at_least_steps(out);
-}
-
-/// Equal readings are no noise of zero: what rounding of numbers leaves would be the scale.
-std::optional<Vector> Fitter::at_least_steps(Vector spread) const {
-  for (Index i = 0; i < spread.size(); ++i)
-    spread[i] = std::max(spread[i], observations_.step[index(i)] / std::sqrt(12 * mean_readouts()));
-  return spread.minCoeff() > 0 ? std::optional(spread) : std::nullopt;
+  if (!(out.size.minCoeff() > 0)) return std::nullopt;
+  // The median has 0.37 of the information of the mean square, and second differences about half of the readings'.
+  const double each = pure.freedom() / static_cast<double>(k), u = std::sqrt(1 / (0.37 * 0.5 * each));
+  const double ratio = out.size.maxCoeff() / out.size.minCoeff();
+  constexpr double sure = 3; // standard deviations
+  out.unequal = ratio > criteria.unequal_spread && std::log(ratio) > sure * u;
+  return out;
 }
 
 /// What comes back in every block is no noise, nor is a slow drift, however well a serial correlation or a variance

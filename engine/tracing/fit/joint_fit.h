@@ -186,10 +186,13 @@ private:
   /// back.
   void find_coarse();
   double mean_readouts() const; ///< of a reading
-  /// Where no noise is declared: how much each indication scatters, from what does not repeat; SI.
-  std::optional<Vector> scatter_about_cells() const;
-  /// The same, no less than the steps of the readings give; none if one is zero.
-  std::optional<Vector> at_least_steps(Vector spread) const;
+  /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
+  struct Scatter {
+    Vector size;  ///< by indication, SI
+    bool unequal; ///< surely
+  };
+  /// Scatter of readings about the means of their conditions; none, if too few repeat or they do not scatter.
+  std::optional<Scatter> scatter_about_cells() const;
   void find_spread();
   /// Where no noise is declared: whether it grows with a condition.
   void find_growth();
