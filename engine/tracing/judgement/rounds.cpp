@@ -345,13 +345,9 @@ private:
         return true;
       }
       if (instead.shape) {
-        auto lasts = sought_.steps_last ? same_that_lasts(c_, *evidence_, *instead.shape) : std::nullopt;
-        JointFit fit = lasts ? evidence_->with({evidence_->linear_term(*lasts)}) : JointFit();
-        if (sought_.steps_last && !lasts)
-          if (auto step = step_in_place_of(c_, *evidence_, evidence_->trial(*instead.shape)))
-            lasts = step->candidate, fit = std::move(step->fit);
-        if (lasts && fit.valid)
-          add_shape(*lasts, fit, found->finding.p_value);
+        const auto lasts = sought_.steps_last ? lasting_in_place_of(c_, *evidence_, *instead.shape) : std::nullopt;
+        if (lasts)
+          add_shape(lasts->candidate, lasts->fit, found->finding.p_value);
         else
           add_shape(*instead.shape, instead.with_shape, found->finding.p_value);
         return true;

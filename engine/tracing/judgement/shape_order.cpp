@@ -13,17 +13,19 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// " of z"; empty where there is one indication.
+std::string of_indication(const TraceContext& c, const Candidate& a) {
+  return a.name.substr(without_indication(a.name, c.observations).size());
+}
+
 /// Puts the first of those tried that is simpler, and of the same indication, before the best, unless the
 /// lead of the best excludes it.
 template <class Simpler>
 void prefer(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, const Simpler& simpler) {
-  const auto indication_of = [&](const Candidate& a) { // " of z"
-    return a.name.substr(without_indication(a.name, c.observations).size());
-  };
-  const std::string indication = indication_of(e.candidates()[tried[0].candidate]);
+  const std::string indication = of_indication(c, e.candidates()[tried[0].candidate]);
   const auto one = std::ranges::find_if(tried, [&](const Trial& t) {
     const Candidate& a = e.candidates()[t.candidate];
-    return simpler(a) && indication_of(a) == indication;
+    return simpler(a) && of_indication(c, a) == indication;
   });
   if (one == tried.end()) return;
   const double lead = tried[0].score - one->score;
@@ -77,6 +79,34 @@ bool of_one_block(const Candidate& a, const Observations& o) {
          (a.name.starts_with("step:") || a.rare());
 }
 
+void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
+  if (!c.fitter.noise_declared() || scatters_as_declared(c, tried[0].fit)) return;
+  const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
+    return e.candidates()[t.candidate].columns.cols() == 1 && scatters_as_declared(c, t.fit) && !e.of_few(t.fit);
+  });
+  if (simple != tried.end()) std::rotate(tried.begin(), simple, simple + 1);
+}
+
+/// Whether two shapes differ by a constant, or their sum is one, at all readings: the first block, and all after it.
+bool same_everywhere(const Matrix& a, const Matrix& b) {
+  constexpr double rounding = 1e-9;
+  const auto constant = [&](const Matrix& x) { return x.maxCoeff() - x.minCoeff() < rounding; };
+  return constant(a - b) || constant(a + b);
+}
+
+/// The step that lasts which the fitted readings, but not all, cannot tell from a shape of one block, or of one pass:
+/// the last block says the same as a step that begins with it, and of aligned blocks any does. There are more instants
+/// than blocks, so that the step need not pass by itself.
+std::optional<std::size_t> same_that_lasts(const TraceContext& c, const Evidence& e, std::size_t a) {
+  if (!of_one_block(e.candidates()[a], c.observations)) return std::nullopt;
+  constexpr double rounding = 1e-9;
+  for (std::size_t b = 0; b < e.candidates().size(); ++b)
+    if (is_lasting_step(e.candidates()[b], c.observations) && std::fabs(e.correlation(a, b)) > 1 - rounding &&
+        !same_everywhere(e.candidates()[a].columns, e.candidates()[b].columns))
+      return b;
+  return std::nullopt;
+}
+
 /// Puts steps that last before the same in one block; the first of all also if it does not pass by itself.
 void settle_steps(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
   for (std::size_t i = 0; steps_last && i < tried.size(); ++i) {
@@ -108,12 +138,24 @@ bool goes_on(const TraceContext& c, const Candidate& pulse) {
   return fitted.tail(k).maxCoeff() > 0.5 * fitted.maxCoeff();
 }
 
-void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
-  if (!c.fitter.noise_declared() || scatters_as_declared(c, tried[0].fit)) return;
-  const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
-    return e.candidates()[t.candidate].columns.cols() == 1 && scatters_as_declared(c, t.fit) && !e.of_few(t.fit);
-  });
-  if (simple != tried.end()) std::rotate(tried.begin(), simple, simple + 1);
+/// A step in place of a pulse that is not over in what is fitted, or of a gradual change, unless their lead excludes
+/// it: between sessions nobody sees whether something changed at once.
+std::optional<Trial> step_in_place_of(const TraceContext& c, const Evidence& e, std::size_t course) {
+  const Candidate& best = e.candidates()[course];
+  if (!best.name.starts_with("shift:") && !(best.name.starts_with("pulse:") && goes_on(c, best))) return std::nullopt;
+  std::optional<std::size_t> step;
+  for (std::size_t b = 0; b < e.candidates().size(); ++b) {
+    const Candidate& one = e.candidates()[b];
+    if (is_lasting_step(one, c.observations) && one.depends_on == best.depends_on &&
+        of_indication(c, one) == of_indication(c, best) && (!step || e.score(b) > e.score(*step)))
+      step = b;
+  }
+  if (!step) return std::nullopt;
+  Trial out = e.trial(*step);
+  const double lead = e.trial(course).score - out.score;
+  if (!out.fit.valid || shape_excludes(lead, [&] { return e.chance_of_lead(course, *step, lead); }))
+    return std::nullopt;
+  return out;
 }
 
 } // namespace
@@ -123,46 +165,10 @@ bool is_lasting_step(const Candidate& a, const Observations& o) {
          std::ranges::any_of(o.covariates, [&](const Covariate& x) { return x.course && x.name == a.depends_on[0]; });
 }
 
-namespace {
-
-/// Whether two shapes differ by a constant, or their sum is one, at all readings: the first block, and all after it.
-bool same_everywhere(const Matrix& a, const Matrix& b) {
-  constexpr double rounding = 1e-9;
-  const auto constant = [&](const Matrix& x) { return x.maxCoeff() - x.minCoeff() < rounding; };
-  return constant(a - b) || constant(a + b);
-}
-
-} // namespace
-
-std::optional<std::size_t> same_that_lasts(const TraceContext& c, const Evidence& e, std::size_t a) {
-  if (!of_one_block(e.candidates()[a], c.observations)) return std::nullopt;
-  constexpr double rounding = 1e-9;
-  for (std::size_t b = 0; b < e.candidates().size(); ++b)
-    if (is_lasting_step(e.candidates()[b], c.observations) && std::fabs(e.correlation(a, b)) > 1 - rounding &&
-        !same_everywhere(e.candidates()[a].columns, e.candidates()[b].columns))
-      return b;
-  return std::nullopt;
-}
-
-std::optional<Trial> step_in_place_of(const TraceContext& c, const Evidence& e, const Trial& course) {
-  const Candidate& best = e.candidates()[course.candidate];
-  const auto part = [&](const Candidate& a) {
-    return a.name.substr(without_indication(a.name, c.observations).size());
-  };
-  if (!best.name.starts_with("shift:") && !(best.name.starts_with("pulse:") && goes_on(c, best))) return std::nullopt;
-  std::optional<std::size_t> step;
-  for (std::size_t b = 0; b < e.candidates().size(); ++b) {
-    const Candidate& one = e.candidates()[b];
-    if (is_lasting_step(one, c.observations) && one.depends_on == best.depends_on && part(one) == part(best) &&
-        (!step || e.score(b) > e.score(*step)))
-      step = b;
-  }
-  if (!step) return std::nullopt;
-  Trial out = e.trial(*step);
-  const double lead = course.score - out.score;
-  if (!out.fit.valid || shape_excludes(lead, [&] { return e.chance_of_lead(course.candidate, *step, lead); }))
-    return std::nullopt;
-  return out;
+std::optional<Trial> lasting_in_place_of(const TraceContext& c, const Evidence& e, std::size_t shape) {
+  if (const auto same = same_that_lasts(c, e, shape))
+    if (Trial one = e.trial(*same); one.fit.valid) return one;
+  return step_in_place_of(c, e, shape);
 }
 
 void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, bool steps_last) {
@@ -171,7 +177,7 @@ void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& 
   lower_power(c, e, tried);
   leave_declared_noise(c, e, tried);
   if (steps_last)
-    if (auto step = step_in_place_of(c, e, tried[0])) {
+    if (auto step = step_in_place_of(c, e, tried[0].candidate)) {
       std::erase_if(tried, [&](const Trial& t) { return t.candidate == step->candidate; });
       tried.insert(tried.begin(), std::move(*step));
     }

@@ -20,14 +20,10 @@ void order_shapes(const TraceContext& context, const Evidence& evidence, std::ve
 /// A step in time, or in the order of measurement, which goes on beyond the readings.
 bool is_lasting_step(const Candidate& candidate, const Observations& observations);
 
-/// The step that lasts which the fitted readings, but not all, cannot tell from a shape of one block, or of one pass:
-/// the last block says the same as a step that begins with it, and of aligned blocks any does. A change is expected to
-/// last; held-out readings tell. There are more instants than blocks, so that the step need not pass by itself.
-std::optional<std::size_t> same_that_lasts(const TraceContext& context, const Evidence& evidence, std::size_t shape);
-
-/// The step in time that goes before a pulse which is not over in what is fitted, or before a gradual change, unless
-/// their lead excludes it: between sessions nobody sees whether something changed at once.
-std::optional<Trial> step_in_place_of(const TraceContext& context, const Evidence& evidence, const Trial& course);
+/// The step that lasts in place of a shape which the fitted readings cannot tell from it: of a block or a pass that
+/// differs where the step begins with it, a pulse that is not over, or a gradual change that does not exclude it. A
+/// change is expected to last; held-out readings tell.
+std::optional<Trial> lasting_in_place_of(const TraceContext& context, const Evidence& evidence, std::size_t shape);
 
 /// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
 /// takes that of errors that are zero at either end.
