@@ -16,6 +16,8 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "cli")]
 
 from program import GUMSHOE, gumshoe
 
+DECLARED = 'components = [ { distribution = "rectangular", half_width = "0.5 um", per = "reading" }, { u = "0.3 um", per = "reading" } ]'
+
 AXIS = """schema = 1
 title = "an axis against a laser with a display of 1 um"
 [model]
@@ -29,14 +31,14 @@ direction = 1
 zero = { estimated = true, value = "0 um" }
 scale = { estimated = true, value = "0 um/m" }
 [indications.d]
-components = [ { distribution = "rectangular", half_width = "0.5 um", per = "reading" }, { u = "0.3 um", per = "reading" } ]
+%s
 readings = { file = "r.csv", column = "d", unit = "um", labels = { run = "run" }, conditions = { x = { column = "x", unit = "mm" }, direction = { column = "direction" } } }
 [trace]
 blocks = "run"
 order = "t"
 draws = 199
 columns.t = { column = "t", unit = "s" }
-"""
+""" % DECLARED
 
 MACHINE_AXIS = """schema = 1
 title = "an axis of a machine, with a display of 1 um"
@@ -176,47 +178,38 @@ class RoundingComesBack(Noise):
         self.assertGreaterEqual(named, 6)
 
 
-class MoreNoiseThanDeclared(Noise):
-    """A display of 1 um is all that is declared of readings that scatter by 1.04 um, and a reversal of +-3 um is not."""
+class DisplayAlone(Noise):
+    """A display of 1 um is all that is known of readings that scatter by 1.04 um, and a reversal of +-3 um is not stated."""
 
-    def test_it_is_found_beside_an_effect(self):
-        scenario = AXIS.replace(', { u = "0.3 um", per = "reading" }', "")
+    def after_each(self, key, noise):
+        """What is found with this noise, the noise of a reading, and what the next round finds; four times."""
+        scenario = AXIS.replace(DECLARED, noise)
         x = np.tile(np.concatenate([np.arange(0, 501, 50), np.arange(500, -1, -50)]), 5)
         n = len(x)
         direction = np.where(np.arange(n) % 22 < 11, 1, -1)
         for seed in range(4):
-            rng = np.random.default_rng([4, seed])
+            rng = np.random.default_rng([key, seed])
             d = np.rint(0.02 * x + 3 * direction + rng.standard_normal(n))
             self.write(scenario, run=np.arange(n) // 22 + 1, direction=direction, x=x, t=20 * np.arange(n), d=d)
-            found = self.trace("s.toml")["findings"]
-            self.assertEqual([f["depends_on"] for f in found], [["direction"], ["reading"]], seed)
-            [size] = found[1]["quantities"]
-            # 88 readings tell a standard deviation to 8 %.
-            self.assertAlmostEqual(size["value"], 1.04, delta=3 * 0.08 * 1.04)
-            after = self.trace("s.traced.toml")
-            self.assertEqual(after["findings"], [], seed)
+            with self.subTest(seed=seed):
+                yield self.trace("s.toml"), self.trace("s.traced.toml")
+
+    # 88 readings tell a standard deviation to 8 %.
+    SCATTER, TOLD = 1.04, 3 * 0.08 * 1.04
+
+    def test_declared_as_the_noise_more_is_found_beside_an_effect(self):
+        for found, after in self.after_each(4, DECLARED.split(", { u =")[0] + " ]"):
+            self.assertEqual([f["depends_on"] for f in found["findings"]], [["direction"], ["reading"]])
+            [size] = found["findings"][1]["quantities"]
+            self.assertAlmostEqual(size["value"], self.SCATTER, delta=self.TOLD)
+            self.assertEqual(after["findings"], [])
             self.assertEqual(after["alpha"], 0.025)  # what is found after something else must pass half of it
 
-
-class DisplayAlone(Noise):
-    """`resolution` says how well a reading can be known, not how readings repeat: that is estimated."""
-
-    def test_scatter_beyond_it_is_no_finding_and_stays_so(self):
-        scenario = AXIS.replace('components = [ { distribution = "rectangular", half_width = "0.5 um", per = "reading" }, { u = "0.3 um", per = "reading" } ]',
-                                'resolution = "1 um"')
-        x = np.tile(np.concatenate([np.arange(0, 501, 50), np.arange(500, -1, -50)]), 5)
-        n = len(x)
-        direction = np.where(np.arange(n) % 22 < 11, 1, -1)
-        for seed in range(4):
-            rng = np.random.default_rng([7, seed])
-            d = np.rint(0.02 * x + 3 * direction + rng.standard_normal(n))
-            self.write(scenario, run=np.arange(n) // 22 + 1, direction=direction, x=x, t=20 * np.arange(n), d=d)
-            found = self.trace("s.toml")
-            self.assertEqual([f["depends_on"] for f in found["findings"]], [["direction"]], seed)
-            # Noise of 1 um, and rounding. 88 readings tell a standard deviation to 8 %.
-            self.assertAlmostEqual(1e6 * found["noise"]["scale"], 1.04, delta=3 * 0.08 * 1.04)
-            after = self.trace("s.traced.toml")
-            self.assertEqual(after["findings"], [], seed)
+    def test_as_a_resolution_it_says_nothing_of_how_readings_repeat(self):
+        for found, after in self.after_each(7, 'resolution = "1 um"'):
+            self.assertEqual([f["depends_on"] for f in found["findings"]], [["direction"]])
+            self.assertAlmostEqual(1e6 * found["noise"]["scale"], self.SCATTER, delta=self.TOLD)
+            self.assertEqual(after["findings"], [])
             self.assertAlmostEqual(after["noise"]["scale"], 1, delta=0.02)  # of what the first round wrote
 
     def test_two_indications_have_a_noise_each(self):
@@ -244,24 +237,23 @@ b_play = { estimated = true, value = "0 um" }
 [indications.a]
 readings = "a"
 resolution = "1 um"
-[indications.b]
-readings = "b"
 [trace]
 blocks = "run"
 draws = 199
+[indications.b]
+readings = "b"
 """
+        display = 'resolution = "0.01 um"\n'
         x = np.tile(np.concatenate([np.arange(0, 451, 50), np.arange(450, -1, -50)]), 5)
         n = len(x)
         direction = np.where(np.arange(n) % 20 < 10, 1, -1)
         alarms = 0
         for seed in range(12):
             rng = np.random.default_rng([8, seed])
-
-            def line():
-                return rng.uniform(-2, 2) + rng.uniform(-0.01, 0.01) * x + rng.uniform(-0.5, 0.5) * direction
+            line = lambda: rng.uniform(-2, 2) + rng.uniform(-0.01, 0.01) * x + rng.uniform(-0.5, 0.5) * direction
             a = np.rint(line() + rng.uniform(0.1, 0.5) * rng.standard_normal(n))
             b = (line() + 0.1 * rng.standard_normal(n)).round(2)
-            self.write(two.replace("readings = \"b\"", 'readings = "b"\nresolution = "0.01 um"' if seed % 2 else 'readings = "b"'), run=np.arange(n) // 20 + 1, direction=direction, x=x, a=a, b=b)
+            self.write(two + display * (seed % 2), run=np.arange(n) // 20 + 1, direction=direction, x=x, a=a, b=b)
             alarms += bool(self.trace("s.toml")["findings"])
         self.assertLessEqual(alarms, 2)  # of 5 %: more in one case of fifty
 
