@@ -113,7 +113,8 @@ Failures failures_of(const propagation::Experiment& e, const Samples& samples) {
   for (std::size_t first = 0; first < samples.size; first += room.size()) {
     const auto status = std::span(room).first(std::min(room.size(), samples.size - first));
     samples.status(first, status);
-    if (std::reduce(status.begin(), status.end(), std::uint8_t{0}, std::bit_or()) == 0) continue; // in lanes
+    if (std::reduce(status.begin(), status.end(), std::uint8_t{0}, std::bit_or()) == 0)
+      continue; // none failed: in one pass
     for (std::size_t i = 0; i < status.size(); ++i) {
       if (status[i] == 0) continue;
       ++counts[status[i]];

@@ -284,7 +284,9 @@ private:
 std::vector<Key> noise_keys() {
   return {
       {"resolution", shape::reference("width"),
-       "step of the display: a rectangular distribution of half a step on either side, with one draw per mean"},
+       "step of the display: a rectangular distribution of half a step on either side, with one draw per mean. It says "
+       "how "
+       "well a reading can be known, not how readings repeat: where no more is stated, tracing estimates that"},
       {"u",
        shape::any_of(
            {shape::reference("width"),

@@ -114,6 +114,8 @@ std::string what_residuals_show(const Trace& t) {
   constexpr const char* lacks = "the model or the declared noise lacks something that these data do not identify.";
   const std::string noise = std::isfinite(r.noise_high) ? in_95(r.noise_low, r.noise_high, r) : shown_rms(r.noise, r);
   constexpr const char* chance = "noise alone gives as much in one case of forty, or"; // beyond 97.5 %
+  const std::string seldom =
+      fmt::format("noise alone gives residuals like these in only {:.2g} % of cases: ", 100 * t.p_anything);
   const std::string bad = bad_readings(t);
   if (held_out_exceeds(r) && !bad.empty()) return "No candidate explains it. " + bad;
   constexpr double by_far = 1.5; // no chance of one in forty
@@ -129,20 +131,16 @@ std::string what_residuals_show(const Trace& t) {
         t.outliers.size() == 1 ? "one reading is" : fmt::format("{} readings are", t.outliers.size()),
         t.outliers[0].reading, shown_rms(std::fabs(t.outliers[0].residual), r));
   if (r.before > r.noise_high) {
-    const std::string how_often =
-        t.p_anything <= t.alpha
-            ? fmt::format("noise alone gives residuals like these in only {:.2g} % of cases: ", 100 * t.p_anything)
-        : r.before > by_far * r.noise_high ? ""
-                                           : std::string(chance) + " ";
+    const std::string how_often = t.p_anything <= t.alpha            ? seldom
+                                  : r.before > by_far * r.noise_high ? ""
+                                                                     : std::string(chance) + " ";
     return fmt::format("No candidate explains the residuals, but those of the training data ({}) are larger than noise "
                        "alone gives ({}): {}{}",
                        shown_rms(r.before, r), noise, how_often, lacks);
   }
   // Nothing agrees whose chance is small.
   if (t.p_anything <= t.alpha)
-    return fmt::format("No candidate explains the residuals ({}), but noise alone gives residuals like these in only "
-                       "{:.2g} % of cases: {}",
-                       shown_rms(r.before, r), 100 * t.p_anything, lacks);
+    return fmt::format("No candidate explains the residuals ({}), but {}{}", shown_rms(r.before, r), seldom, lacks);
   if (t.noise.correlation >= criteria.strong_correlation)
     return fmt::format("No candidate explains the residuals ({}). They are no larger than noise gives whose readings "
                        "resemble those before them (correlation {:.1f}): something varies slowly that is not known.",

@@ -31,7 +31,7 @@ struct Design {
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
   std::vector<double> step;      ///< by indication: in which its readouts were recorded; empty: not known
-  std::vector<int> readouts;     ///< by place in the sequence: of how many it is the mean; empty: of one
+  std::vector<int> readouts;     ///< by place in the sequence, the number of which it is the mean; empty: one
   /// By indication, whether its readings scatter so little that rounding to these steps comes back; empty: none does.
   std::vector<bool> coarse;
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
@@ -40,7 +40,7 @@ struct Design {
 
 /// Standard uncertainty of the noise of a row, SI.
 double noise_of_row(const Design& design, Index row);
-/// Of how many readouts a row is the mean.
+/// The number of readouts of which a row is the mean.
 double readouts_of_row(const Design& design, Index row);
 
 /// What the steps in which readings were recorded give at least as the standard deviation of the chosen rows, in units

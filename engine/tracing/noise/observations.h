@@ -58,7 +58,7 @@ struct Observations {
   std::vector<std::string> holdout_blocks;
   std::vector<double> measured;        ///< [reading][indication], SI
   std::vector<double> step;            ///< by indication: in which readouts were recorded, SI (step.h)
-  std::vector<int> readouts;           ///< by reading: of how many it is the mean
+  std::vector<int> readouts;           ///< by reading, the number of which it is the mean
   ReadoutScatter of_readouts;
   std::vector<std::string> statements; ///< what the design of the data leaves undetermined
   std::vector<std::string> names;      ///< names of the indications
