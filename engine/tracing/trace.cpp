@@ -17,6 +17,7 @@
 #include "tracing/findings/sizes.h"
 #include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starting_values.h"
+#include "tracing/judgement/few_causes.h"
 #include "tracing/judgement/holdout.h"
 #include "tracing/judgement/rounds.h"
 #include "tracing/judgement/search.h"
@@ -164,6 +165,21 @@ void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
     out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", later));
 }
 
+/// Judges a search. Where groups of readings seem to scatter, a few causes may be all of it: they are found instead if
+/// they leave no more of the hold-out blocks than noise alone gives, and less than scatter would seldom let them.
+void judge(const TraceContext& c, Search& found, Trace& out) {
+  const Trace start = out;
+  std::optional<Search> few = few_causes(c, found);
+  judge_by_holdout(c, found, out);
+  if (!few) return;
+  Trace judged = start;
+  judge_by_holdout(c, *few, judged);
+  const double left = judged.rms.holdout_after;
+  if (judged.vetoed || left > judged.rms.holdout_noise_high || left > out.rms.holdout_noise_low) return;
+  found = std::move(*few);
+  out = std::move(judged);
+}
+
 /// The search without what was rejected. The errors and the noise told are then those of what stands.
 Search what_stands(const TraceContext& c, const Search& found, Trace& out) {
   if (!out.vetoed) return found;
@@ -281,7 +297,7 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
   if (found.base.kink)
     out.statements.push_back(
         "the model has a kink at the point of linearisation; its derivatives hold for one side only");
-  judge_by_holdout(c, found, out);
+  judge(c, found, out);
   if (found.capped)
     out.statements.push_back(
         fmt::format("the search ended at its limit of {} findings; more would be found", criteria.most_findings));

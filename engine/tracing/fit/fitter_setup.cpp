@@ -159,6 +159,14 @@ void Fitter::find_responses() {
   }
 }
 
+Fitter Fitter::without_scatter() const {
+  Fitter out = *this;
+  out.groups_scatter_ = false;
+  out.covariance_models_.clear();
+  out.find_covariance_models();
+  return out;
+}
+
 Fitter Fitter::without_rows(const std::vector<Index>& rows) const {
   Fitter out = *this;
   std::erase_if(out.rows_, [&](Index row) { return std::ranges::binary_search(rows, row); });

@@ -99,6 +99,8 @@ public:
   bool weigh_by_label(const JointFit& found);
   /// The same without some of the rows.
   Fitter without_rows(const std::vector<Index>& rows) const;
+  /// The same as if no groups of readings could scatter.
+  Fitter without_scatter() const;
   /// A fit as it is of a scenario that declares more noise.
   JointFit with_noise(const JointFit& found, const std::vector<MoreNoise>& more) const;
   /// The declared model at its estimates, not fitted.
@@ -246,6 +248,7 @@ private:
   std::vector<FreeUnknown> unknowns_;
   std::vector<Draw> draws_;
   bool noise_declared_ = false;
+  bool groups_scatter_ = true; ///< whether variance components are tried
   Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
   Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
   std::vector<bool> coarse_;          ///< as Design::coarse

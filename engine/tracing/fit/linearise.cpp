@@ -24,7 +24,7 @@ bool Fitter::linearise(JointFit& fit) const {
   fit.residual = in_sequence(o, Eigen::Map<const Vector>(o.measured.data(), f.size()) - f - offset_);
   Design& d = fit.design;
   d.indications = o.indications;
-  d.scatter = o.replicate_groups;
+  d.scatter = groups_scatter_ ? o.replicate_groups : std::vector<Grouping>{};
   d.step = o.step;
   d.coarse = coarse_;
   d.covariance_models = covariance_models_;

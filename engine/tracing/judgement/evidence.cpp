@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/LU>
 
@@ -290,6 +291,12 @@ JointFit without(const TraceContext& c, const JointFit& fit, const std::vector<s
   for (std::size_t t = 0; t < fit.terms.size(); ++t)
     if (std::ranges::find(dropped, t) == dropped.end()) terms.push_back(fit.terms[t]);
   return c.fitter.fit(terms, fit.noise, &fit);
+}
+
+double criterion_without_terms(const TraceContext& c, const JointFit& fit) {
+  std::vector<std::size_t> all(fit.terms.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return criterion_at(c, fit, all);
 }
 
 double gain_of(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms,

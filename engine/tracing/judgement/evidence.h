@@ -121,6 +121,8 @@ private:
 /// @param in_place_of_scatter  true: no variance component may take their place
 double gain_of(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms,
                bool in_place_of_scatter = false);
+/// Minus 2 ln likelihood of what a fit leaves, comparable between fits of different terms.
+double criterion_without_terms(const TraceContext& context, const JointFit& fit);
 /// The fit without some of its terms.
 JointFit without(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms);
 

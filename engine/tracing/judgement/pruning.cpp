@@ -86,6 +86,16 @@ JointFit fitted_anew(const TraceContext& c, const JointFit& fit) {
   return with_tuned_forms(c, again.valid ? std::move(again) : fit);
 }
 
+void fit_all_anew(const TraceContext& c, const JointFit& base, Search& s) {
+  const auto fitted = [&](const JointFit& fit) {
+    return fit.terms.empty() ? base : fitted_anew(c, c.fitter.fit(fit.terms, 0));
+  };
+  s.base = base;
+  s.found = fitted(s.found);
+  for (Stage& stage : s.stages) stage.fit = fitted(stage.fit);
+  c.fitter.widen_jumping(s.found);
+}
+
 void prune(const TraceContext& c, Search& s, std::set<std::string>& dropped) {
   while (auto one = in_place_of_names(c, s)) put_in_place(c, s, std::move(*one), dropped);
   std::vector<double> gains;

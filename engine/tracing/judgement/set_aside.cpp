@@ -40,17 +40,11 @@ std::vector<Index> outlying_rows(const TraceContext& c, const JointFit& fit) {
 }
 
 Search with_all_readings(const TraceContext& c, const Search& all, Search without, std::size_t set_aside) {
-  const auto fitted = [&](const JointFit& fit) {
-    return fit.terms.empty() ? all.base : fitted_anew(c, c.fitter.fit(fit.terms, 0));
-  };
-  without.base = all.base;
-  without.found = fitted(without.found);
-  for (Stage& stage : without.stages) stage.fit = fitted(stage.fit);
+  fit_all_anew(c, all.base, without);
   without.dropped.push_back(fmt::format(
       "{} outlying {} set aside in the search: with {}, single readings would seem to scatter more than declared",
       set_aside, set_aside == 1 ? "reading was" : "readings were", set_aside == 1 ? "it" : "them"));
   for (Stage& stage : without.stages) stage.dropped.push_back(without.dropped.back());
-  c.fitter.widen_jumping(without.found);
   return without;
 }
 

@@ -1,0 +1,54 @@
+"""What `gumshoe new` and `gumshoe trace` make of a tool setter's log: several tools, twice a day.
+
+usage: trace_log_tools_test.py path/to/gumshoe [unittest options]
+"""
+import random
+import unittest
+
+from traced_log import TracedLog
+
+TOOLS, DAYS, PASSES = 6, 8, 2
+
+
+class Tools(TracedLog):
+    def tools(self, seed, of_day, scatter=0.0):
+        """The verdict on a log of tools whose offsets nobody declared. `of_day(tool, day)` is added; um."""
+        noise = random.Random(seed)
+        offset = [noise.gauss(0, 5) for _ in range(TOOLS)]
+        rows = ["day,tool,time (min),dz (um)"]
+        for day in range(DAYS):
+            of_tool = [noise.gauss(0, scatter) for _ in range(TOOLS)]
+            for again in range(PASSES):
+                start = 1440 * day + 180 * again + noise.uniform(0, 60)
+                for tool in range(TOOLS):
+                    if noise.random() < 0.1:
+                        continue
+                    value = offset[tool] + of_tool[tool] + of_day(tool, day) + noise.gauss(0, 1)
+                    rows.append(f"day {day + 1},T{tool + 1},{start + 4 * tool:.1f},{value:.1f}")
+        self.log(rows)
+        return self.verdict("log.toml")
+
+    def test_two_tools_that_were_hit(self):
+        """Tools 2 and 5 are 15 um shorter from day 5 on: with a step of either alone the other still looks like scatter
+        by day and tool. Steps must be known to a few u, and held-out days predicted to the noise of 1 um."""
+        found = 0
+        for seed in range(8):
+            verdict = self.tools(seed, lambda tool, day: -15.0 if tool in (1, 4) and day >= 4 else 0.0)
+            steps = {w for f in verdict["findings"] for w in ("tool T2 after", "tool T5 after") if w in f.get("described_by", "")}
+            if steps != {"tool T2 after", "tool T5 after"}:
+                continue
+            found += 1
+            self.assertNotIn("scatter", [f["kind"] for f in verdict["findings"]])
+            self.assertLess(verdict["rms"]["holdout_after"], 1.6)
+        self.assertGreaterEqual(found, 6)
+
+    def test_clampings_that_scatter_do(self):
+        """Each tool is clamped anew each day, by 3 um: no few steps stand for that."""
+        for seed in range(6):
+            verdict = self.tools(100 + seed, lambda tool, day: 0.0, scatter=3)
+            self.assertIn(["day", "tool"], [f["depends_on"] for f in verdict["findings"] if f["kind"] == "scatter"])
+            self.assertFalse([f for f in verdict["findings"] if "step:time" in f.get("described_by", "")])
+
+
+if __name__ == "__main__":
+    unittest.main()
