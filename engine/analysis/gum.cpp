@@ -368,10 +368,10 @@ double variance_over_scale(const Contribution& c) {
   return c.distribution == "t" && freedom > 2 && std::isfinite(freedom) ? freedom / (freedom - 2) : 1;
 }
 
-bool accounts_for_variance(const Budget& b, const Summary& s, const Validation& v) {
+bool accounts_for_variance(const Budget& b, const Summary& s) {
   constexpr double apart = 0.05;
   const double u = s.standard_uncertainty;
-  if (v.verdict == "validated" || !std::isfinite(u)) return true;
+  if (!std::isfinite(u)) return true;
   double wider = 1;
   for (const Contribution& c : b.contributions)
     if (std::isfinite(c.share)) wider += c.share * (variance_over_scale(c) - 1);

@@ -43,10 +43,10 @@ Validation validate(const Budget& budget, const Summary& summary, double coverag
 /// with nu degrees of freedom, 1 of all others; 1 also where that variance does not exist.
 double variance_over_scale(const Contribution& contribution);
 
-/// Whether the law of propagation accounts for the variance by Monte Carlo: the framework is validated, or both differ
-/// by no more than 5 % and twice the Monte Carlo standard error, where a t distribution contributes its variance and
-/// not the square of its scale. Otherwise the shares of the law are not those of the variance.
-bool accounts_for_variance(const Budget& budget, const Summary& summary, const Validation& validation);
+/// Whether the law of propagation accounts for the variance by Monte Carlo: both differ by no more than 5 % and twice
+/// the Monte Carlo standard error, where a t distribution contributes its variance and not the square of its scale.
+/// Otherwise the shares of the law are not those of the variance.
+bool accounts_for_variance(const Budget& budget, const Summary& summary);
 
 /// "per setup", "per rod, setup", "" for a draw that all readings share.
 std::string scope_text(const quantities::Component& component);

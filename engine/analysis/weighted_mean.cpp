@@ -29,6 +29,7 @@ public:
     for (std::size_t i = 0; i < results.size(); ++i)
       for (const Summary& s : results[i].results.summaries)
         if (s.output.name == output && !s.output.diagnostic) add(i, results[i], s);
+    settle_uncertainties();
   }
 
   WeightedMean combine(double coverage_probability) {
@@ -46,7 +47,7 @@ private:
 
   void add(std::size_t i, const NamedResult& result, const Summary& s) {
     const std::string where = result.name + ": " + s.output.name;
-    const double u = s.expanded_uncertainty / s.coverage_factor; // the one to which k and the degrees of freedom belong
+    const double u = s.standard_uncertainty;
     if (!(u > 0) || !std::isfinite(u) || !std::isfinite(s.estimate))
       throw InputError(where + " has no standard uncertainty", "its weight would not be known", "leave the result out");
     if (out_.parts.empty()) out_.mean.output = s.output;
@@ -58,18 +59,28 @@ private:
     part.result = i;
     part.summary = s;
     part.summary.output.unit = first.unit;
-    part.summary.standard_uncertainty = u;
     out_.parts.push_back(part);
     budgets_.push_back(budget_of(result.results, s.output.name));
     names_.push_back(where);
+    const Budget* b = budgets_.back();
+    by_framework_ =
+        by_framework_ && b && b->applicable && b->combined_standard_uncertainty > 0 && accounts_for_variance(*b, s);
   }
 
-  /// Whether u is that of the GUM framework, with finite degrees of freedom. The samples' u has their widening in it.
-  bool by_framework(std::size_t i) const { return std::isfinite(out_.parts[i].summary.degrees_of_freedom); }
+  /// One kind of u for all: a mean must not move because one result has enough samples to be validated.
+  void settle_uncertainties() {
+    for (std::size_t i = 0; i < size(); ++i) {
+      Summary& s = out_.parts[i].summary;
+      s.degrees_of_freedom = infinite;
+      if (!by_framework_) continue;
+      s.standard_uncertainty = budgets_[i]->combined_standard_uncertainty;
+      if (const double freedom = budgets_[i]->effective_degrees_of_freedom; freedom > 0) s.degrees_of_freedom = freedom;
+    }
+  }
 
-  /// What a component adds to the u of part i. That of samples has a t's standard deviation, not its scale.
-  double contribution(std::size_t i, const Contribution& c) const {
-    return signed_contribution(c) * (by_framework(i) ? 1 : std::sqrt(variance_over_scale(c)));
+  /// What a component adds to u. That of samples has a t's standard deviation, not its scale.
+  double contribution(const Contribution& c) const {
+    return signed_contribution(c) * (by_framework_ ? 1 : std::sqrt(variance_over_scale(c)));
   }
 
   bool is_same(const Contribution& c) const { return std::ranges::find(same_, c.quantity) != same_.end(); }
@@ -88,9 +99,8 @@ private:
       shared.degrees_of_freedom = infinite;
       for (std::size_t i = 0; i < size(); ++i) {
         const Contribution* c = by_part[i];
-        shared.contributions.push_back(c ? contribution(i, *c) : 0);
-        if (c && by_framework(i))
-          shared.degrees_of_freedom = std::min(shared.degrees_of_freedom, c->degrees_of_freedom);
+        shared.contributions.push_back(c ? contribution(*c) : 0);
+        if (c && by_framework_) shared.degrees_of_freedom = std::min(shared.degrees_of_freedom, c->degrees_of_freedom);
         if (c) shared.quantity = c->quantity;
       }
       out_.shared.push_back(std::move(shared));
@@ -106,12 +116,12 @@ private:
   void separate(std::size_t i) {
     WeightedPart& part = out_.parts[i];
     part.own = part.summary.standard_uncertainty;
-    part.own_degrees_of_freedom = by_framework(i) ? part.summary.degrees_of_freedom : infinite;
+    part.own_degrees_of_freedom = part.summary.degrees_of_freedom;
     const bool sharing = std::ranges::any_of(out_.shared, [&](const SharedPart& s) { return s.contributions[i] != 0; });
     if (!sharing) return;
     double all = 0, own = 0, satterthwaite = 0;
     for (const Contribution& c : budgets_[i]->contributions) {
-      const double square = std::pow(contribution(i, c), 2);
+      const double square = std::pow(contribution(c), 2);
       if (!std::isfinite(square))
         throw InputError(names_[i] + ": what it shares is not known",
                          fmt::format("its budget has no sensitivity coefficient of {}", c.name),
@@ -123,7 +133,7 @@ private:
     }
     const double scale = part.own / std::sqrt(all);
     part.own = scale * std::sqrt(own);
-    part.own_degrees_of_freedom = by_framework(i) && satterthwaite > 0 ? own * own / satterthwaite : infinite;
+    part.own_degrees_of_freedom = by_framework_ && satterthwaite > 0 ? own * own / satterthwaite : infinite;
     for (SharedPart& s : out_.shared) s.contributions[i] *= scale;
   }
 
@@ -205,6 +215,8 @@ private:
   }
 
   const std::vector<std::string>& same_;
+  bool by_framework_ =
+      true; ///< u and degrees of freedom are those of the budgets; else u of the samples, which has both
   std::vector<const Budget*> budgets_; ///< by part; null: none
   std::vector<std::string> names_;     ///< by part: "a.h5: laser_z"
   WeightedMean out_;

@@ -22,7 +22,7 @@ struct NamedResult {
 /// What one result is in the mean of a measurand.
 struct WeightedPart {
   std::size_t result = 0; ///< position among the results given
-  Summary summary;        ///< in that result: estimate, u = U / k, degrees of freedom; unit of the mean
+  Summary summary;        ///< in that result: estimate, u and degrees of freedom as combined; unit of the mean
   double own = 0;         ///< standard uncertainty without what is shared
   double own_degrees_of_freedom = 0;
   double weight = 0;           ///< negative where a strong correlation makes it so; they add up to 1
@@ -69,8 +69,9 @@ struct WeightedMeans {
 /// 39, 589, extended to correlated results). U is that of the t distribution with the effective degrees of freedom of
 /// v_i and s_k (JCGM 100, G.4.1). chi^2 = (y - mean)'V^-1 (y - mean); u(y_i - mean)^2 = u_i^2 - u^2.
 ///
-/// The u_i of a result is U / k of its certificate: that of the framework with its degrees of freedom where Monte Carlo
-/// validates it, else that of the samples, which has them in it already. A budget is the first order: its contributions
+/// The u_i are the u_c of the budgets with their degrees of freedom where every budget accounts for the variance of its
+/// samples (accounts_for_variance()); else all are those of the samples, which have the degrees of freedom in them
+/// already. Neither depends on the number of samples. A budget is the first order: its contributions
 /// are scaled to add up to u_i. Correlations between different quantities of a result are so spread over all of them.
 ///
 /// A measurand cannot be combined if its results have different dimensions, a quantity of `same` has no coefficient, a

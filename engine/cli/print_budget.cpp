@@ -114,7 +114,7 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
 std::string largest_contributions(const Budget& b, const Summary& s, const Validation& v,
                                   const std::vector<SobolIndex>& indices) {
   constexpr std::size_t most = 3;
-  const bool law = b.applicable && accounts_for_variance(b, s, v);
+  const bool law = b.applicable && (v.verdict == "validated" || accounts_for_variance(b, s));
   const bool monte_carlo = !law && (!b.applicable || !indices.empty());
   std::vector<Part> all = monte_carlo ? parts(b, indices) : parts(b);
   const std::size_t total = all.size();

@@ -41,6 +41,7 @@ std::vector<Summary> read_summaries(hid_t file) {
     rows[i].output = {name[i], measurand[i], 0, unit[i], si[i], {}, diagnostic[i] != 0};
   fill(group, "estimate", rows, &Summary::estimate);
   fill(group, "standard_uncertainty", rows, &Summary::standard_uncertainty);
+  fill(group, "standard_uncertainty_se", rows, &Summary::standard_uncertainty_se);
   fill(group, "expanded_uncertainty", rows, &Summary::expanded_uncertainty);
   fill(group, "coverage_factor", rows, &Summary::coverage_factor);
   fill(group, "degrees_of_freedom", rows, &Summary::degrees_of_freedom);
@@ -69,6 +70,7 @@ Budget read_budget(hid_t group, const propagation::Output& output) {
   fill(group, "degrees_of_freedom", rows, &Contribution::degrees_of_freedom);
   fill(group, "sensitivity", rows, &Contribution::sensitivity);
   fill(group, "contribution", rows, &Contribution::contribution);
+  fill(group, "share", rows, &Contribution::share);
   fill(group, "source", rows, &Contribution::source);
   const auto evaluation = hdf5::read_texts(group, "evaluation");
   require_rows(evaluation.size() == rows.size(), "evaluation");

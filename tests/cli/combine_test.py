@@ -32,7 +32,7 @@ class Combine(Lengths):
     def mean(self, *words):
         return self.combined(*words)["means"][0]
 
-    # The u of a result is that of its samples, with the relative standard error 1 / sqrt(2 n); 5 of them.
+    # Estimates and the u of nonlinear results are those of samples, with the relative standard error 1 / sqrt(2 n); 5 of them.
     RELATIVE = 5 / math.sqrt(2 * SAMPLES)
 
     def test_independent_results_are_weighted_by_their_variances(self):
@@ -56,15 +56,33 @@ class Combine(Lengths):
         self.assertEqual((row["alike"], row["shared"]), (["reference"], []))
 
     def test_few_degrees_of_freedom_of_one_input_widen_no_other(self):
-        """A t of 4 degrees of freedom has the standard deviation sqrt(2) u: its own, not that of the reference."""
-        def few(text):  # too few to be validated: u and k are those of the samples
-            return text.replace('u = "3 um"', 'u = "3 um"\ndegrees_of_freedom = 4').replace("digits = 1", "digits = 2")
+        """A t of 5 degrees of freedom has the standard deviation sqrt(5/3) u: its own, not that of the reference. Where one
+        result is not linear, u is that of the samples for all; else it is u_c of the budgets."""
+        def few(text):
+            return text.replace('u = "3 um"', 'u = "3 um"\ndegrees_of_freedom = 5')
         three = [self.result(f"few{i}", reading=110 + 0.001 * i, seed=i, change=few) for i in (1, 2, 3)]
         row = self.mean(*three, "--same", "reference")
-        # The fourth moment of that t is infinite: its variance is known to some per cent, not to 1 / sqrt(2 n).
         for shared in row["shared"][0]["contributions"]:
-            self.assertAlmostEqual(shared, -0.004, delta=0.04 * 0.004)
-        self.assertAlmostEqual(row["standard_uncertainty"], math.sqrt(16 + 18 / 3) / 1000, delta=0.04 * 0.0047)
+            self.assertAlmostEqual(shared, -0.004, delta=1e-12)
+        self.assertAlmostEqual(row["standard_uncertainty"], math.sqrt(16 + 9 / 3) / 1000, delta=1e-9)
+        extra = '[quantities.zero]\nvalue = "110.004 mm"\n[quantities.bend]\nvalue = "1000 1/mm"\n[run]'
+        bent = self.result("bent", formula="reading - reference + bend * (reading - zero)^2", reading=110.004,
+                           change=lambda t: few(t).replace("[run]", extra))
+        row = self.mean(three[0], bent, "--same", "reference")
+        self.assertAlmostEqual(row["shared"][0]["contributions"][0], -0.004, delta=0.04 * 0.004)
+        self.assertAlmostEqual(row["results"][0]["standard_uncertainty"], math.sqrt(16 + 15) / 1000, delta=0.04 * 0.0056)
+
+    def test_a_mean_does_not_move_with_the_number_of_samples(self):
+        """Enough samples validate one result and not the other; both have the same u_c and degrees of freedom."""
+        def of(digits):
+            return lambda t: t.replace('u = "4 um"\n', "").replace(
+                'u = "3 um"\n', 'u = "3 um"\ndegrees_of_freedom = 4\n').replace("digits = 1", f"digits = {digits}")
+        a, undecided, decided = (self.result(f"moved{digits}{k}", reading=110 + k / 1000, change=of(digits))
+                                 for digits, k in ((1, 0), (2, 1), (1, 1)))
+        one, other = self.mean(a, undecided), self.mean(a, decided)
+        for key in ("estimate", "standard_uncertainty", "expanded_uncertainty", "degrees_of_freedom"):
+            self.assertEqual(one[key], other[key])
+        self.assertEqual([r["weight"] for r in one["results"]], [0.5, 0.5])
 
     def test_a_shared_input_stays_in_the_mean_and_cancels_in_the_difference(self):
         # V = diag(9, 1) + 16: the weights are those of 9 and 1, u^2 = 16 + 1 / (1/9 + 1), and the difference has 9 + 1.
