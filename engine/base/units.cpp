@@ -149,6 +149,7 @@ constexpr KindOfUnit kinds[] = {
     {"V", "a voltage", "use V or mV"},
     {"ohm", "an electric resistance", "use ohm"},
     {"mol", "an amount of substance", "use mol"},
+    {"s.A", "an electric charge", "use C, the coulomb; degC are degrees Celsius"},
 };
 
 const KindOfUnit* row(const std::string& si_unit) {

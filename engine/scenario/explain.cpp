@@ -99,6 +99,23 @@ void explain(const quantities::Correlation& c, Lines out) {
   fmt::format_to(out, "\n");
 }
 
+void explain(const ConformityTest& c, const ModelCard& model, Lines out) {
+  fmt::format_to(out, "  conformity of {}, SI limits [{}, {}], ", c.measurand,
+                 c.lower ? fmt::format("{:.12g}", *c.lower) : "none",
+                 c.upper ? fmt::format("{:.12g}", *c.upper) : "none");
+  if (c.rule != DecisionRule::stated)
+    fmt::format_to(out, "rule {}", name(c.rule));
+  else
+    fmt::format_to(out, "guard band {}",
+                   c.guard_factor != 0 ? fmt::format("{:.6g} U", c.guard_factor)
+                                       : fmt::format("{:.12g} SI", c.guard_band));
+  const auto card = std::ranges::find(model.measurands, c.measurand, &VariableCard::name);
+  if (c.process && card != model.measurands.end())
+    fmt::format_to(out, ", process {} + {}", both(c.process_value, card->unit, card->si_unit),
+                   described(*c.process, std::string(card->si_unit)));
+  fmt::format_to(out, "\n");
+}
+
 void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
   fmt::format_to(out, "run\n  {}\n", explained(run_options(), s.run));
   if (s.run.adaptive.rule != StoppingRule::fixed)
@@ -107,12 +124,12 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
                  explained_changes(sensitivity_options(), s.analysis.sensitivity));
   for (const OneAtATime& study : s.analysis.one_at_a_time)
     fmt::format_to(out, "  one at a time: {} ({} quantities)\n", printable(study.title), study.steps.size());
-  for (const ConformityTest& c : s.analysis.conformity)
-    fmt::format_to(out, "  conformity of {}, SI limits [{}, {}]\n", c.measurand,
-                   c.lower ? fmt::format("{:.12g}", *c.lower) : "none",
-                   c.upper ? fmt::format("{:.12g}", *c.upper) : "none");
-  for (const Target& t : s.analysis.targets)
-    fmt::format_to(out, "  target: U of {} at most {:.12g} SI\n", t.measurand, t.expanded_uncertainty);
+  for (const ConformityTest& c : s.analysis.conformity) explain(c, model, out);
+  for (const Target& t : s.analysis.targets) {
+    fmt::format_to(out, "  target: U of {} at most {:.12g} SI", t.measurand, t.expanded_uncertainty);
+    for (const auto& [quantity, cost] : t.costs) fmt::format_to(out, ", cost of {} {:.6g}", quantity, cost);
+    fmt::format_to(out, "\n");
+  }
   for (const Comparison& c : s.analysis.comparisons)
     fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between,
                    c.within.empty() ? "" : ", within " + c.within);

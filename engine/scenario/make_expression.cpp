@@ -82,6 +82,18 @@ private:
   std::string intermediates_;
 };
 
+/// A measurand may have the name of a quantity only if it is that quantity: other formulas mean the quantity by it. In
+/// a virtual experiment it is the true value that the measurand estimates.
+void refuse_names_of_quantities(const formula::Statement& s, Problems& problems) {
+  for (const formula::Stated& m : s.measurands) {
+    const std::string name = m.formula.short_name();
+    if (m.formula.text != name && std::ranges::find(s.quantities, name, &Symbol::name) != s.quantities.end())
+      problems.add({m.formula.where, fmt::format("{}: '{}' is a quantity, too", m.formula.name, name),
+                    fmt::format("'{}' in a formula means the quantity", name),
+                    "rename one of them; as the true value of a measurand it needs method = \"virtual_experiment\""});
+  }
+}
+
 } // namespace
 
 models::MadeModel make_expression(const MadeModelSource& source) {
@@ -102,14 +114,15 @@ models::MadeModel make_expression(const MadeModelSource& source) {
       s.indications.push_back({name, "", "", ""});
   }
   const Node* method = model.find("method");
+  const bool virtual_experiment = method && method->text == "virtual_experiment";
+  if (!virtual_experiment) refuse_names_of_quantities(s, context.problems);
   if (s.measurands.empty() && s.simulated.empty())
     model.add("model: there is no formula", "an expression needs at least one measurand",
               "[model.measurands] y = \"a + b\"");
   if (context.problems.size() != before) return nullptr;
   const UnitHints hints(s, declared);
   try {
-    return models::expression::make(std::move(s), context.notes,
-                                    method && method->text == "virtual_experiment");
+    return models::expression::make(std::move(s), context.notes, virtual_experiment);
   } catch (const InputError& error) {
     for (Problem p : error.problems()) {
       hints.add(p);

@@ -122,8 +122,22 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
     table.refuse("a guard band is given together with rule", "the rule fixes the guard band", "leave one out");
   if (const Node* process = table.find("process")) {
     const QuantityCard card{measurand->name, measurand->unit, measurand->si_unit, 0, {-1e300, 1e300}, "", ""};
+    const std::size_t without_value = context.without_value.size();
     const auto q = read_quantity(*process, table.path("process"), card, std::string(measurand->name), context);
-    if (q.entries.size() == 1 && q.entries[0].components.size() == 1) {
+    if (context.without_value.size() > without_value) {
+      context.without_value.resize(without_value);
+      table.refuse_key("process", "has no value", "the mean of what the process makes is not known",
+                       "process = { value = \"...\", u = \"...\" }");
+    } else if (std::ranges::any_of(q.entries, [](const auto& e) {
+                 return std::ranges::any_of(e.components, [](const auto& c) {
+                   return c.distribution.family == quantities::Family::t && c.distribution.values;
+                 });
+               })) {
+      table.refuse_key(
+          "process", "is stated by observations",
+          "a Type A evaluation gives the uncertainty of their mean, and not the spread of what the process makes",
+          "process = { value = \"mean\", u = \"standard deviation\" }");
+    } else if (q.entries.size() == 1 && q.entries[0].components.size() == 1) {
       out.process = q.entries[0].components[0].distribution;
       out.process_value = q.entries[0].value;
     } else if (context.problems.empty()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include "scenario/family.h"
@@ -37,9 +38,9 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   for (const double v : x) mean += v / n;
   for (const double v : x) squares += (v - mean) * (v - mean);
   const double scale = std::sqrt(squares / (n - 1) / n);
-  // In units of s/sqrt(n): the mean of three observations is as far from its expectation in one case of a thousand.
-  constexpr double far = 32;
-  if (const double apart = form.absolute && form.value ? std::abs(*form.value - mean) / scale : 0; n > 2 && apart > far)
+  // In units of s/sqrt(n): a mean is as far from its expectation in one case of a thousand.
+  const double far = quantile(complement(boost::math::students_t(n - 1), 5e-4));
+  if (const double apart = form.absolute && form.value ? std::abs(*form.value - mean) / scale : 0; apart > far)
     context.notes.push_back(fmt::format("{}: the mean of the observations is not used, because a value is stated; they "
                                         "differ by {:.3g} s/sqrt(n)",
                                         table.path(), apart));
@@ -165,6 +166,11 @@ namespace {
 /// Finite degrees of freedom of u make a normal distribution a t, of a Type A evaluation (JCGM 101:2008, 6.4.9) and of
 /// a certificate (6.4.9.7) alike. For other families they only enter the effective degrees of freedom (GUM G.4.2).
 void apply_degrees_of_freedom(Component& c, std::optional<double> declared, Table& table, Context& context) {
+  if (declared && table.has("observations") && *declared != c.degrees_of_freedom)
+    table.refuse_key("degrees_of_freedom",
+                     fmt::format("{:.0f} observations have {:.0f}", c.degrees_of_freedom + 1, c.degrees_of_freedom),
+                     "their mean is a t with n - 1 degrees of freedom (JCGM 101, 6.4.9)",
+                     "leave it out, or state u of pooled observations with it");
   if (declared) c.degrees_of_freedom = *declared;
   auto& d = c.distribution;
   if (d.family == Family::normal && std::isfinite(c.degrees_of_freedom)) {

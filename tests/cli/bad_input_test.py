@@ -57,6 +57,13 @@ MISTAKES = {
     "NaN": (SCENARIO + "[quantities.trigger_fraction]\nvalue = nan\n", 15, ["trigger_fraction", "finite"]),
     "infinity": (of_radius('value = "inf mm"'), 5, ["rod_radius", "finite"]),
     "too large": (of_radius('value = "1e400 mm"'), 5, ["rod_radius", "1e400"]),
+    "degrees of freedom of observations": (of_radius('observations = ["5 mm", "5.1 mm", "5.2 mm"]\ndegrees_of_freedom = 7'), 6,
+                                           ["3 observations have 2", "Leave it out"]),
+    "process without a value": (SCENARIO + '[[analysis.conformity]]\nmeasurand = "laser_z"\nupper = "11 mm"\nprocess = { u = "3 um" }\n',
+                                17, ["process", "has no value"]),
+    "process by observations": (
+        SCENARIO + '[[analysis.conformity]]\nmeasurand = "laser_z"\nupper = "11 mm"\nprocess = { observations = ["9 mm", "10 mm"] }\n', 17,
+        ["is stated by observations", "spread of what the process makes", "standard deviation"]),
     "NaN as an uncertainty": (of_radius('value = "5 mm"\nu = "nan um"'), 6, ["rod_radius.u"]),
     "NaN as a reading": (swap('"-329.931 mm"', '"nan mm"'), 11, ["readings"]),
     "negative u": (of_radius('value = "5 mm"\nu = "-1 um"'), 6, ["above 0"]),
