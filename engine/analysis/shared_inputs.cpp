@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scenario/document.h"
 
 namespace gumshoe::analysis {
 
@@ -27,6 +28,19 @@ double signed_contribution(const Contribution& c) { return c.sensitivity * c.sta
 bool alike(const Contribution& a, const Contribution& b) {
   return a.evaluation == 'B' && b.evaluation == 'B' && a.standard_uncertainty > 0 &&
          a.standard_uncertainty == b.standard_uncertainty && a.distribution == b.distribution;
+}
+
+std::string correlated_with(const Results& r, const std::string& quantity) {
+  if (r.scenario_text.empty()) return "";
+  const scenario::Node document = scenario::parse_document(r.scenario_text, r.scenario_file);
+  const scenario::Node* const rows = scenario::find_member(document, "correlations");
+  for (const scenario::Node& row : rows ? rows->items : std::vector<scenario::Node>{}) {
+    const scenario::Node* const names = scenario::find_member(row, "quantities");
+    if (!names || std::ranges::find(names->items, quantity, &scenario::Node::text) == names->items.end()) continue;
+    for (const scenario::Node& other : names->items)
+      if (other.text != quantity) return other.text;
+  }
+  return "";
 }
 
 void require_shared(std::span<const std::string> wanted, std::span<const Results* const> results) {
@@ -50,6 +64,13 @@ void require_shared(std::span<const std::string> wanted, std::span<const Results
                         "",
                         near.empty() ? "" : "did you mean '" + near + "'?"});
   }
+  for (const Results* r : results)
+    for (const std::string& name : wanted)
+      if (const std::string other = correlated_with(*r, name); !other.empty())
+        problems.push_back({{},
+                            fmt::format("--same {}: it is correlated with {}", name, other),
+                            "what the results share by that is not known from their budgets",
+                            "leave it out, or evaluate both measurements in one scenario"});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

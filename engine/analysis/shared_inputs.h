@@ -21,7 +21,11 @@ double signed_contribution(const Contribution& contribution);
 /// anew each time.
 bool alike(const Contribution& a, const Contribution& b);
 
-/// Throws InputError unless each of the quantities that `--same` names stands in the budgets of at least two results.
+/// A quantity with which the result's scenario correlates this one; empty: none.
+std::string correlated_with(const Results& result, const std::string& quantity);
+
+/// Throws InputError unless each of the quantities that `--same` names stands in the budgets of at least two results,
+/// and is correlated with no other one.
 void require_shared(std::span<const std::string> same, std::span<const Results* const> results);
 
 /// Throws InputError unless all results have one coverage probability.

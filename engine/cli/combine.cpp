@@ -168,6 +168,7 @@ void add_combine(CLI::App& app, Action& action) {
   command->add_option("results", o->files, "result files (HDF5) of the same measurands")->required();
   command->add_option("--same", o->same, "quantities that have one error in several results, such as a certificate's")
       ->delimiter(',')
+      ->type_name("NAME[,NAME]")
       ->allow_extra_args(false); // what follows is a file
   command->add_option("--measurand", o->measurand,
                       "the one to combine, with its labels (default: all in common that can be combined)");

@@ -66,7 +66,7 @@ std::string text_of(const RawFile& file, std::uint64_t& begin) {
   if (!end.starts_with(mark)) {
     std::string head(std::min<std::uint64_t>(size, 1u << 20), '\0');
     file.read(head.data(), head.size(), 0);
-    if (head.find("gumshoe") == std::string::npos) throw NoResult("another program wrote it");
+    if (head.find("gumshoe") == std::string::npos) throw NoResult("another program wrote it, or it is cut off");
     throw OutputError("its end is missing: it is truncated, changed by another program, or of another format version");
   }
   const std::uint64_t bytes = std::strtoull(end.substr(mark.size(), 16).c_str(), nullptr, 16);

@@ -86,6 +86,7 @@ analysis::Results read_results(const std::string& path) {
   Results out;
   out.title = hdf5::read_text(file, "title");
   out.coverage_probability = hdf5::read_number(file, "coverage_probability");
+  out.scenario_text = hdf5::read_text(file, "scenario_text");
   out.summaries = read_summaries(file);
   if (!hdf5::has(file, "budget")) return out;
   const hdf5::Handle budgets = hdf5::open_group(file, "budget");

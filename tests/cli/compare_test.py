@@ -47,6 +47,15 @@ class Compare(Lengths):
         self.assertAlmostEqual(change["reading"][0], 0.003, delta=1e-9)
         self.assertAlmostEqual(change["reading"][1], 0.001, delta=1e-9)
 
+    def test_an_input_that_is_correlated_cannot_be_shared(self):
+        """What its partner has of it is not in the budgets; without --same, nothing is claimed of it."""
+        tied = [self.result(f"tied{seed}", seed=seed, change=lambda t: t + '[[correlations]]\nquantities = ["reading", "reference"]\n'
+                            'kind = "pearson"\ncoefficient = 0.5\n') for seed in (1, 2)]
+        self.refused("--same reference: it is correlated with reading", *tied, "--same", "reference")
+        self.assertIsNotNone(self.compared(*tied)["comparisons"][0]["normalised_error"])
+        said = gumshoe("combine", *tied, "--same", "reference")
+        self.assertIn("it is correlated with reading", said.stderr)
+
     def test_a_shared_input_cancels(self):
         # Same sign of its coefficient in both: only the readings' 3 um and 1 um remain, and 12 um is more than U = 6.2 um.
         row = self.compared(self.before, self.after, "--same", "reference")["comparisons"][0]
