@@ -84,7 +84,8 @@ void print_goals(const Planned& plan) {
 std::string answer(const Planned& plan) {
   const std::string what = plan.count == 1 ? "1 further reading" : fmt::format("{} further readings", plan.count);
   const std::string setups = plan.opened.empty() ? "" : fmt::format(", with {}", fmt::join(plan.opened, ", "));
-  const std::string all = fmt::format("{}{}, cost {:.4g}", what, setups, plan.cost);
+  const std::string all =
+      fmt::format("{}{}{}, cost {:.4g}", what, setups, plan.repeats ? ", repeats told apart" : "", plan.cost);
   if (plan.d_optimal) return "the most informative: " + all;
   if (plan.met) return plan.count == 0 ? "every goal is met without further readings" : "every goal is met by " + all;
   const bool possible = std::ranges::any_of(plan.goals, [](const GoalReached& g) { return g.possible; });
@@ -129,12 +130,13 @@ std::string plan_table(const scenario::Scenario& s, const Planned& plan) {
   std::string out;
   const auto& columns = s.plan->columns;
   for (std::size_t c = 0; c < columns.size(); ++c) out += (c > 0 ? "," : "") + csv_cell(columns[c].header);
-  out += '\n';
+  const bool told = plan.repeats && std::ranges::find(columns, "repeat", &PlanColumn::header) == columns.end();
+  out += told ? ",repeat\n" : "\n";
   for (const auto& r : plan.readings)
     for (int n = 0; n < r.count; ++n) {
       for (std::size_t c = 0; c < columns.size(); ++c)
         out += (c > 0 ? "," : "") + csv_cell(cell(columns[c], s.plan->readings[r.allowed]));
-      out += '\n';
+      out += told ? fmt::format(",{}\n", n + 1) : "\n";
     }
   return out;
 }

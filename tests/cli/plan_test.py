@@ -191,6 +191,17 @@ class Plan(InFolder):
         self.assertEqual(answer["count"], 12)
         goal = answer["goals"][0]
         self.assertIn("count as one", answer["notes"][0])  # of equal labels and conditions
+        self.assertIn("repeats told apart", self.run_plan().stdout)
+        # Filled in and told apart, as the note says, they give the fit that u.
+        planned = [line.split(",") for line in (self.folder / "plan.csv").read_text().splitlines()]
+        rows = [",".join((*cells[:3], cells[3] or "0", cells[4])) for cells in planned]
+        first = [line + ",0" for line in DATA.splitlines()[1:]]
+        (self.folder / "d.csv").write_text("\n".join([rows[0], *first, *rows[1:]]) + "\n")
+        text = TEXT.split("[stated_effects.scale]")[0].replace('setup = "setup" }', 'setup = "setup", repeat = "repeat" }')
+        self.file.write_text(text)
+        fit = gumshoe("estimate", self.file, "--format", "json", "--scenario-out", self.folder / "fit.toml")
+        self.assertEqual(fit.returncode, 0, fit.stderr)
+        self.assertAlmostEqual(json.loads(fit.stdout)["parameters"]["a"]["standard_uncertainty"], 0.25, places=6)
         self.assertAlmostEqual(goal["u_before"], 0.5, places=6)
         self.assertAlmostEqual(goal["u_after"], 0.25, places=6)
 
@@ -260,7 +271,7 @@ class Plan(InFolder):
     def test_the_table_has_the_columns_of_the_data(self):
         self.planned(SPLIT)
         rows = self.table()
-        self.assertEqual(list(rows[0]), ["setup", "x", "warmth", "y"])
+        self.assertEqual(list(rows[0]), ["setup", "x", "warmth", "y", "repeat"])
         self.assertEqual({r["setup"] for r in rows}, {"1"})
         self.assertEqual({r["y"] for r in rows}, {""})
         run = gumshoe("plan", self.file, "--format", "csv", "--out", self.folder / "plan.csv")

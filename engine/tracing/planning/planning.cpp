@@ -293,10 +293,12 @@ private:
       out.readings.push_back({model_.allowed[i], count_[i], count_[i] * task_.cost[i], model_.settings[i]});
       open.insert(task_.opens[i].begin(), task_.opens[i].end());
     }
-    if (model_.noise_declared && repeats(out))
-      out.notes.push_back(
-          "readings of equal labels and conditions count as one, with its noise as declared: record what tells "
-          "repeats from one another, such as their time or a label");
+    out.repeats = model_.noise_declared && repeats(out);
+    if (out.repeats)
+      out.notes.push_back("readings of equal labels and conditions count as one, with its noise as declared: the "
+                          "column 'repeat' of the "
+                          "table tells them apart, with labels = { repeat = \"repeat\" } in [data], and 0 for the "
+                          "readings that are there");
     for (const std::size_t setup : open) out.opened.push_back(model_.setups[setup]);
   }
 

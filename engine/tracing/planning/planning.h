@@ -50,6 +50,8 @@ struct Planned {
   int count = 0;
   bool met = false; ///< every goal; a D-optimal plan: true
   bool d_optimal = false;
+  /// Readings are planned that count only where something tells them from others of equal labels and conditions.
+  bool repeats = false;
   std::size_t allowed = 0; ///< readings compared
   double gain = 0;         ///< of a D-optimal plan: ln of the determinant of the information, after less before
   /// How the noise of a reading is known: as declared, or from residuals. Unknown: uncertainties are in units of it.
