@@ -82,32 +82,6 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
 
 namespace {
 
-/// The variate with the fewest degrees of freedom that moves the output, if it is a t without a variance.
-const quantities::Variate* without_variance(const propagation::Experiment& e, const Budget& budget) {
-  const quantities::Variate* found = nullptr;
-  for (const Contribution& c : budget.contributions) {
-    if (std::isinf(c.degrees_of_freedom) || c.degrees_of_freedom > 2 || c.sensitivity == 0) continue;
-    for (const auto& v : e.plan().variates)
-      if (v.name == c.name && !std::isfinite(v.distribution.variance()) &&
-          (!found || v.distribution.parameters[2] < found->distribution.parameters[2]))
-        found = &v;
-  }
-  return found;
-}
-
-/// Withholds the moments that do not exist, for a reason in the inputs or in the tails of the values.
-void withhold(Summary& s, const quantities::Variate* without, const Column& values, const KeptOrder& order,
-              int threads) {
-  if (!without) return check_tails(values, s, threads, &order);
-  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = std::nan("");
-  const double freedom = without->distribution.parameters[2];
-  s.warning = (s.warning.empty() ? "" : s.warning + "; ") +
-              fmt::format("no standard uncertainty: {} is a t with {:.3g} degree{} of freedom", without->name, freedom,
-                          freedom == 1 ? "" : "s") +
-              (s.warning.empty() ? "; the ends of the interval are quantiles and remain valid" : "");
-  if (freedom <= 1) use_median(values, s, threads);
-}
-
 /// Warns where samples in double precision are too coarse for the uncertainty.
 void warn_of_resolution(Summary& s, const Budget& b) {
   const double u =
@@ -253,7 +227,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
       for (const Contribution& c : b.contributions) largest = std::fmax(largest, c.contribution);
       join_rounded(summary, largest);
     }
-    withhold(summary, without_variance(e, b), values, order, threads);
+    withhold(summary, without_variance(e, b), values, threads, order);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     warn_of_resolution(summary, b);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
@@ -301,10 +275,14 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
   study(true, "covariance of the fit", r.fits, [&] { return fit_covariances(e, samples); });
   if (!virtual_experiment) note_residuals(r);
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
+  for (const CircularSummary& c : r.circular)
+    for (Summary& summary : r.summaries)
+      if (!c.remark.empty() && summary.output.name == c.output.name && summary.standard_uncertainty > 0)
+        correct_by_circle(summary, c, s.analysis.coverage_probability);
   study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries, threads); });
   study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.summaries, r.budgets, threads); });
   if (s.run.store_inputs) r.draws = input_draws(e);
-  r.comparisons = compare(e, samples.values, r.summaries, threads);
+  r.comparisons = compare(e, samples.values, r.summaries, r.budgets, threads);
   r.printed = beside_printed(e, r.summaries);
   r.predicted = predicted_readings(e, r.summaries);
   return r;

@@ -10,8 +10,10 @@
 #include "analysis/complete.h"
 #include "analysis/leaves.h"
 #include "analysis/ordered_column.h"
+#include "analysis/rounding.h"
 #include "analysis/summary.h"
 #include "base/special_values.h"
+#include "base/units.h"
 #include "propagation/propagate.h"
 
 namespace gumshoe::analysis {
@@ -97,6 +99,21 @@ CircularSummary circular_summary(const Column& angles, double p, int threads) {
                            "interval on the line are misleading",
                            100 * static_cast<double>(crossed) / n);
   return c;
+}
+
+void correct_by_circle(Summary& s, const CircularSummary& c, double p) {
+  const auto& o = s.output;
+  const auto shown = [&](double x) { return units::from_si(x, o.unit, o.si_unit); };
+  const int d = decimals_for(shown(c.standard_deviation));
+  const std::string unit = units::suffix(o.unit);
+  s.statement =
+      fmt::format("{}: mean direction {}{} with a standard deviation of {}{} on the circle; the shortest arc of {} "
+                  "goes from {} up to {}{}. {}.",
+                  o.name, fixed(shown(c.mean_direction), d), unit, fixed(shown(c.standard_deviation), d), unit,
+                  coverage_text(p), fixed(shown(c.low), d), fixed(shown(c.high), d), unit, c.remark);
+  s.warning += (s.warning.empty() ? "" : "; ") + c.remark;
+  s.certificate.clear();
+  s.expanded_uncertainty = s.coverage_factor = nan;
 }
 
 std::vector<CircularSummary> circular_summaries(const propagation::Experiment& e, const ValuesOf& values, int threads) {

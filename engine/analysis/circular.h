@@ -12,6 +12,9 @@ namespace gumshoe::analysis {
 /// half a turn.
 CircularSummary circular_summary(const Column& angles, double coverage_probability, int threads = 1);
 
+/// Puts what holds on the circle in place of the statement on the line, which misleads, and withholds U and k.
+void correct_by_circle(Summary& summary, const CircularSummary& circle, double coverage_probability);
+
 /// One for every output that is an angle.
 std::vector<CircularSummary> circular_summaries(const propagation::Experiment& experiment, const ValuesOf& values,
                                                 int threads);

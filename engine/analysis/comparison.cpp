@@ -6,6 +6,8 @@
 #include <span>
 
 #include "analysis/summary.h"
+#include "analysis/tails.h"
+#include "base/special_values.h"
 
 namespace gumshoe::analysis {
 
@@ -44,7 +46,8 @@ void tell_apart(std::span<ComparisonResult> results) {
 } // namespace
 
 std::vector<ComparisonResult> compare(const propagation::Experiment& e, const ValuesOf& values,
-                                      const std::vector<Summary>& summaries, int threads) {
+                                      const std::vector<Summary>& summaries, const std::vector<Budget>& budgets,
+                                      int threads) {
   std::vector<ComparisonResult> results;
   for (const auto& c : e.scenario().analysis.comparisons) {
     const std::size_t before = results.size();
@@ -57,8 +60,11 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         if (!c.within.empty() && label_value(la, c.within) != label_value(lb, c.within)) continue;
         Room rooms[2];
         const Column first = held(values(i), rooms[0], 2), second = held(values(j), rooms[1], 2);
-        Summary s = summarise(a, difference_of(first, second), e.scenario().analysis.coverage_probability, threads);
+        const Column difference = difference_of(first, second);
+        KeptOrder order;
+        Summary s = summarise(a, difference, e.scenario().analysis.coverage_probability, threads, &order);
         join_rounded(s);
+        withhold(s, without_variance(e, budgets[i], &budgets[j]), difference, threads, order);
         ComparisonResult r;
         r.a = a.name;
         r.b = b.name;
@@ -69,7 +75,7 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         r.difference = s.estimate;
         r.standard_uncertainty = s.standard_uncertainty;
         r.root_sum_square = std::hypot(summaries[i].standard_uncertainty, summaries[j].standard_uncertainty);
-        r.expanded_uncertainty = s.monte_carlo_expanded;
+        r.expanded_uncertainty = std::isfinite(s.standard_uncertainty) ? s.monte_carlo_expanded : nan;
         r.normalised_error = r.difference / r.expanded_uncertainty;
         results.push_back(r);
       }

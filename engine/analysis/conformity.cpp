@@ -184,10 +184,7 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
                         probability_text(r.process_conformance, 1e-6), percent(r.global_consumer_risk),
                         percent(r.global_producer_risk));
   }
-  if (failed > 0)
-    text += fmt::format(" {} failed samples are left out; they could move the conformance probability by {} at most.",
-                        failed, percent(static_cast<double>(failed) / static_cast<double>(failed + samples)));
-  return text;
+  return text + failed_text(r, samples, failed);
 }
 
 double stated_expanded_uncertainty(const Summary& s) {
@@ -195,6 +192,13 @@ double stated_expanded_uncertainty(const Summary& s) {
 }
 
 } // namespace
+
+std::string failed_text(const ConformityResult& r, std::uint64_t valid, std::uint64_t failed) {
+  if (failed == 0) return "";
+  const double share = static_cast<double>(failed) / static_cast<double>(failed + valid);
+  return fmt::format(" {} failed samples are left out; they could move the conformance probability by {} at most.",
+                     failed, probability_text(share, r.least_risk));
+}
 
 std::string ConformityResult::decision() const {
   const double to_limit = std::fmin(std::fabs(estimate - acceptance_lower), std::fabs(estimate - acceptance_upper));

@@ -28,6 +28,9 @@ struct Known {
 ConformityResult assess(const Column& samples, const Known& known, const scenario::ConformityTest& test,
                         int threads = 1);
 
+/// " 30 failed samples are left out; they could move the conformance probability by 0.3 % at most."; empty without any.
+std::string failed_text(const ConformityResult& result, std::uint64_t valid, std::uint64_t failed);
+
 /// One for each of the scenario's tests and each output it names. U is the one that the result states (certify()), or
 /// half the symmetric coverage interval where it states none.
 std::vector<ConformityResult> conformity(const propagation::Experiment& experiment, const ValuesOf& values,

@@ -62,7 +62,7 @@ public:
         return *figure;
       }
     throw InputError("'" + text_ + "' is not a figure of this result", "or the scenario does not request its study",
-                     "the header analysis/figures.h of the program lists them");
+                     "scenarios/gauge/README.md lists them");
   }
 
 private:

@@ -140,11 +140,14 @@ StoppingRecord run_adaptively(const propagation::Experiment& e, propagation::Sam
   r.trials = std::min(r.reached && !options.validation ? needed : most, rules.blocks()) * block;
   r.tolerance = rules.tolerances();
   store.resize(r.trials);
+  const bool further = r.reached && r.trials > needed * block; // needed: by the rule alone
   r.statement = fmt::format("adaptive run, {} significant digits of u: {} trials by the {} rule{}; the rule of JCGM "
                             "101 7.9 {}, the two-stage "
                             "rule {}",
                             r.digits, r.trials, stein ? "two-stage (Stein)" : "JCGM 101 7.9",
-                            r.reached ? "" : fmt::format(", which was not satisfied at max_samples = {}", options.most),
+                            !r.reached ? fmt::format(", which was not satisfied at max_samples = {}", options.most)
+                            : further  ? ", and on until all of them satisfy JCGM 101 7.9, as a validation asks"
+                                       : "",
                             r.jcgm_trials > 0 ? fmt::format("stops at {}", r.jcgm_trials) : "has not stopped by then",
                             r.stein_trials > 0 ? fmt::format("asks for {}", r.stein_trials) : "can give no number");
   return r;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -107,7 +108,8 @@ void check_tails(const Column& values, Summary& s, int threads, const KeptOrder*
   const double unsettled = s.kurtosis / n;
   if (heavy && unsettled > 1e-3) {
     s.warning = fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle in "
-                            "so many samples (Hill's tail index is {:.2g}; a variance exists only above 2); the ends "
+                            "so many samples (Hill's tail index is {:.2g}, not clearly above 2, and a variance exists "
+                            "only above 2); the ends "
                             "of the interval are quantiles and remain valid",
                             s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
@@ -117,6 +119,44 @@ void check_tails(const Column& values, Summary& s, int threads, const KeptOrder*
                                 "Carlo standard error; the one stated is too small",
                                 s.hill_index);
   }
+}
+
+const quantities::Variate* without_variance(const propagation::Experiment& e, const Budget& budget,
+                                            const Budget* less) {
+  struct Moved {
+    double by = 0, most = 0; ///< sensitivity, and the larger one of the two outputs
+  };
+  std::map<std::string, Moved> moved;
+  const auto add = [&](const Budget& of, double sign) {
+    for (const Contribution& c : of.contributions) {
+      Moved& m = moved[c.name];
+      m.by += sign * c.sensitivity;
+      m.most = std::max(m.most, std::fabs(c.sensitivity));
+    }
+  };
+  add(budget, 1);
+  if (less) add(*less, -1);
+  const quantities::Variate* found = nullptr;
+  for (const quantities::Variate& v : e.plan().variates) {
+    const auto m = moved.find(v.name);
+    if (m == moved.end() || v.distribution.family != quantities::Family::t || std::isfinite(v.distribution.variance()))
+      continue;
+    const bool cancels = std::fabs(m->second.by) <= 1e-12 * m->second.most; // rounding is left
+    if (!cancels && (!found || v.distribution.parameters[2] < found->distribution.parameters[2])) found = &v;
+  }
+  return found;
+}
+
+void withhold(Summary& s, const quantities::Variate* without, const Column& values, int threads,
+              const KeptOrder& order) {
+  if (!without) return check_tails(values, s, threads, &order);
+  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
+  const double freedom = without->distribution.parameters[2];
+  s.warning = (s.warning.empty() ? "" : s.warning + "; ") +
+              fmt::format("no standard uncertainty: {} is a t with {:.3g} degree{} of freedom", without->name, freedom,
+                          freedom == 1 ? "" : "s") +
+              (s.warning.empty() ? "; the ends of the interval are quantiles and remain valid" : "");
+  if (freedom <= 1) use_median(values, s, threads);
 }
 
 } // namespace gumshoe::analysis

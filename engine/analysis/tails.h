@@ -5,6 +5,7 @@
 #include "analysis/column.h"
 #include "analysis/results.h"
 #include "analysis/summary.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
 
@@ -22,6 +23,16 @@ namespace gumshoe::analysis {
 /// in their number.
 /// @param order  what summarise() left of the values, if it did
 void check_tails(const Column& values, Summary& summary, int threads = 1, const KeptOrder* order = nullptr);
+
+/// The variate with the fewest degrees of freedom that moves an output, or what it has less another one, if it is a t
+/// without a variance; null: none is.
+/// @param less  budget of the output that is subtracted; null: none
+const quantities::Variate* without_variance(const propagation::Experiment& experiment, const Budget& budget,
+                                            const Budget* less = nullptr);
+
+/// Withholds the moments that do not exist, for a reason in the inputs (`without`) or in the tails of the values.
+void withhold(Summary& summary, const quantities::Variate* without, const Column& values, int threads,
+              const KeptOrder& order);
 
 /// Adds the ranks that check_tails() asks for, of so many values that are not NaN.
 void add_tail_ranks(std::size_t valid, std::vector<RankRange>& ranks);

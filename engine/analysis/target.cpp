@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/combine.h"
 #include "analysis/gum.h"
@@ -115,6 +116,10 @@ public:
         const Budget& budget, int threads)
       : target_(target), law_(budget, e, e.scenario().analysis.coverage_probability), trial_(e, output, threads),
         ones_(trial_.experiment().plan().variates.size(), 1.0), stated_(summary.expanded_uncertainty) {
+    // The ends of the interval are independent but for what they share in the middle.
+    relative_se_ = std::hypot(summary.symmetric.low_se, summary.symmetric.high_se) /
+                   (summary.symmetric.high - summary.symmetric.low) *
+                   std::sqrt(static_cast<double>(summary.valid) / static_cast<double>(trial_.points()));
     result_.output = e.outputs()[output];
     result_.wanted = target.expanded_uncertainty;
     result_.reached = result_.cost_ratio = nan;
@@ -165,6 +170,10 @@ private:
     drop_.push_back(result_.present * result_.present - without * without);
     const double dip = law_.applicable() ? law_.dip(row.quantity) : 0;
     row.allowed = row.present * largest_allowed(u, result_.present, without, target_.expanded_uncertainty, dip);
+    // U^2 is nearly linear in the square of the scale: its error divides by what of U^2 the quantity may have.
+    const double wanted = result_.wanted * result_.wanted, room = std::fabs(wanted - without * without);
+    if (const double error = relative_se_ * wanted / room; std::isfinite(row.allowed) && error > 0.01)
+      uncertain_.push_back(fmt::format("{} {:.2g} %", row.quantity, 100 * error));
     if (!law_.applicable()) return;
     const auto by_law = [&](double s) { return law_.expanded_uncertainty(row.quantity, s); };
     row.allowed_gum = row.present * largest_allowed(by_law, by_law(1), by_law(0), target_.expanded_uncertainty, dip);
@@ -230,9 +239,11 @@ private:
     const int digits = decimals_for(width(0.5 * std::min(result_.present, result_.wanted)));
     result_.statement = fmt::format(
         "{}: wanted U = {}{}, at present U = {}{}{}. Each allowed standard "
-        "uncertainty stands alone, the others as they are; found to 0.1 % with common random numbers",
+        "uncertainty stands alone, the others as they are; found with common random numbers, with a relative "
+        "standard error of at most {}",
         o.name, fixed(width(result_.wanted), digits), unit, fixed(width(result_.present), digits), unit,
-        std::isfinite(stated_) ? "" : " (half the interval about the mean; the result states no U)");
+        std::isfinite(stated_) ? "" : " (half the interval about the mean; the result states no U)",
+        uncertain_.empty() ? "1 %" : fmt::format("{}", fmt::join(uncertain_, ", ")));
     if (!std::isnan(result_.reached))
       result_.statement += fmt::format(". Cheapest combination: U = {}{} at {:.3g} times the present cost, the cost of "
                                        "a quantity being inversely proportional to its standard uncertainty",
@@ -250,6 +261,8 @@ private:
   std::vector<double> drop_; ///< by row: how much U^2 falls without the quantity
   TargetResult result_;
   std::string why_not_;
+  double relative_se_ = 0;             ///< of U of a trial
+  std::vector<std::string> uncertain_; ///< quantities whose allowed u is known to no better than 1 %
 };
 
 } // namespace

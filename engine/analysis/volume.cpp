@@ -300,8 +300,14 @@ private:
           fmt::format(" {} causes the largest part of it, {}.", out.shares[0].name, text(out.shares[0].error));
     const auto most_uncertain = std::ranges::max_element(out.shares, {}, &VolumeShare::share);
     if (most_uncertain != out.shares.end() && most_uncertain->share > 0)
-      out.statement += fmt::format(" {} contributes most to its variance ({}).", most_uncertain->name,
+      out.statement += fmt::format(" Along that error, {} contributes most to the variance ({}).", most_uncertain->name,
                                    share_text(most_uncertain->share));
+    const double apart = 0.05 + 3 / std::sqrt(2 * static_cast<double>(out.samples));
+    if (std::fabs(worst.u_length - out.linear_u) > apart * worst.u_length)
+      out.notes.push_back(
+          fmt::format("the shares are those of the error along its mean, whose u is {}; the length has u = {}, "
+                      "because what is uncertain across that direction, or not linear, counts as well",
+                      text(out.linear_u), text(worst.u_length)));
     if (!experiment_.scenario().stated_effects.empty() || experiment_.layout().effects.size() > 0)
       out.notes.emplace_back("effects on the readings are no errors of the machine's axes, and are not in the map");
   }

@@ -94,12 +94,13 @@ void print_text(const Result& r, const std::string& file) {
                              c.name, c.setting, choice::duration(c.candidate.time), width(r, f.expanded, f.expanded),
                              width(r, c.candidate.average.mean, f.expanded), c.candidate.time / r.fresh.time);
   }
-  std::cout << "Pareto front (time, U):\n";
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < r.candidates.size(); ++i)
     if (r.candidates[i].pareto) front.push_back(i);
   std::ranges::stable_sort(front, {}, [&](std::size_t i) { return r.candidates[i].time; });
   constexpr std::size_t most = 12; // of a long front some, evenly
+  std::cout << fmt::format("Pareto front (time, U){}:\n",
+                           front.size() > most ? fmt::format(", some of its {} settings", front.size()) : "");
   const std::size_t step = (front.size() + most - 1) / most;
   for (std::size_t k = 0; k < front.size(); ++k) {
     const Candidate& c = r.candidates[front[k]];

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/conformity.h"
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
@@ -69,11 +70,6 @@ void print_joint(const Results& r, std::ostream& out) {
     }
     out << '\n';
   }
-  for (const CircularSummary& c : r.circular)
-    if (!c.remark.empty())
-      out << fmt::format("{} on the circle: mean direction {}, standard deviation {} ({})\n", c.output.name,
-                         shown(c.mean_direction, c.output.unit, c.output.si_unit),
-                         shown(c.standard_deviation, c.output.unit, c.output.si_unit), c.remark);
 }
 
 /// A limit with the digits that the guard band and a tenth of the tolerance ask for.
@@ -115,6 +111,9 @@ void print_conformity(const Results& r, std::ostream& out) {
                        limit(c, c.estimate), rule_text(c.rule), shown(c.guard_band, c.output.unit, c.output.si_unit),
                        c.acceptance_lower >= c.acceptance_upper ? "; the guard bands leave no room for acceptance"
                                                                 : "");
+    for (const Summary& s : r.summaries)
+      if (s.output.name == c.output.name && s.failed > 0)
+        out << "  warning:" << failed_text(c, s.valid, s.failed) << '\n';
   }
 }
 

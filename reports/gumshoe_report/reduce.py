@@ -16,7 +16,7 @@ def how(components):
     if components and all(c.source == OF_THE_DATA for c in components):
         return "more indications in a reading: four times as many halve it"
     if components and all(c.evaluation == "A" for c in components):
-        return "more observations: four times as many halve it"
+        return "more observations: four times as many halve it at least"
     if len(sources) == 1 and sources[0].startswith("step "):
         return f"a finer resolution ({sources[0]})"
     return f"a better source than “{sources[0]}”" if len(sources) == 1 else "better sources, such as a calibration"
@@ -107,7 +107,7 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
     if len(everything) > 1:
         text += f"; without all the others it would fall to {with_unit(show(1 - share))}"
     return types.SimpleNamespace(
-        text=text + ".", unit=unit_text(unit), law=law,
+        text=text + ".", unit=unit_text(unit), law=law, few=law and any(heavier(c) > 1 for c in b.rows),
         rows=[types.SimpleNamespace(name=name, share=percent(min(1.0, s)), half=show(0.75 * s) if law else "", exact=show(s),
                                     how=how(components)) for name, components, s in parts[:LISTED]],
         left=len(parts) - LISTED)

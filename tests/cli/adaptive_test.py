@@ -64,6 +64,10 @@ class Adaptive(InFolder):
             with h5py.File(self.folder / f"x{len(wanted)}.h5") as f:
                 verdicts[wanted] = [f[f"validation/{name}"].asstr()[0] for name in ("verdict", "reason")]
         self.assertEqual(verdicts[", validation = true"][0], "validated")
+        with h5py.File(self.folder / f"x{len(', validation = true')}.h5") as f:
+            stopping = {key: f["stopping"].attrs[key] for key in ("trials", "jcgm_trials", "stein_trials", "statement")}
+        further = stopping["trials"] > stopping["stein_trials"]
+        self.assertEqual("and on until all of them satisfy JCGM 101 7.9, as a validation asks" in str(stopping["statement"]), further)
         if verdicts[""][0] != "validated":
             self.assertRegex(verdicts[""][1], r"about \S+ trials are needed")
 

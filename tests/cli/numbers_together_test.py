@@ -6,6 +6,7 @@ usage: numbers_together_test.py path/to/gumshoe [unittest options]
 import json
 import math
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -96,6 +97,80 @@ x = { value = "10 mm", u = "0.15 mm", degrees_of_freedom = 5 }
         self.assertIn("U and k of the GUM framework, validated by Monte Carlo, of u_c = 0.15 mm", text)
         output, = said
         self.assertAlmostEqual(output["expanded_uncertainty"] / output["coverage_factor"], 0.15, delta=1e-6)
+
+    def test_a_difference_without_a_mean_is_one_of_medians(self):
+        """Two readings a rod: a t with 1 degree of freedom. What both share cancels; that does not give it a mean."""
+        (self.path / "z.csv").write_text("rod,z (mm)\nA,2.000\nA,2.002\nB,2.010\nB,2.016\n")
+        scenario = '''[model.measurands]
+h = { formula = "z - ref", unit = "mm" }
+[quantities.ref]
+value = "1 mm"
+u = "1 um"
+[indications.z]
+repeatability = "readings"
+readings = { file = "z.csv", column = "z (mm)", unit = "mm", labels = { rod = "rod" } }
+[[analysis.comparisons]]
+measurand = "h"
+between = "rod"
+'''
+        self.result(scenario)
+        row, = read.result(self.path / "s.h5").comparisons
+        self.assertTrue(math.isnan(row.standard_uncertainty) and math.isnan(row.expanded_uncertainty))
+        self.assertTrue(math.isnan(row.normalised_error))
+        # The scales are 1 um and 3 um; the median of 20,000 is known to about pi (1 + 3) um / (2 sqrt(20000)).
+        self.assertAlmostEqual(row.difference, -12e-6, delta=5 * 0.045e-6)
+        # One unknown error in both: its t, without a variance, is in neither difference.
+        self.result(scenario.replace('u = "1 um"', 'u = "1 um"\ndegrees_of_freedom = 1')
+                    .replace('repeatability = "readings"', 'components = [{ u = "2 um", per = "reading" }]'))
+        row, = read.result(self.path / "s.h5").comparisons
+        self.assertAlmostEqual(row.standard_uncertainty, math.hypot(2e-6, 2e-6), delta=0.05e-6)
+
+    def test_an_angle_across_the_cut_is_stated_on_the_circle(self):
+        """About 180 deg: mean, u and interval on the line are those of two heaps 360 deg apart."""
+        text, said = self.result('''[model.measurands]
+th = { formula = "atan2(y, x)", unit = "deg" }
+[quantities]
+x = { value = "-10 mm", u = "0.01 mm" }
+y = { value = "0.1 mm", u = "1 mm" }
+''')
+        output, = said
+        self.assertEqual(output["certificate"], "")
+        self.assertIsNone(output["expanded_uncertainty"])
+        self.assertIn("lie across the cut of the circle", output["warning"])
+        self.assertRegex(text, r"th: mean direction (-?17\d|180)\.?\d* deg with a standard deviation of 5\.\d+ deg on the circle; the shortest arc of "
+                               r"95 % goes from 16\d\.?\d* up to 19\d")
+        across, = json.loads(self.run_command("run", "s.toml", "--out", "s.h5", "--force", "--samples", 20000, "--format", "json"))
+        self.assertAlmostEqual(across["circular"]["standard_deviation"], math.degrees(0.1), delta=0.2)
+
+    def test_failed_samples_stand_next_to_a_conformance_probability(self):
+        """Those that fail are all beyond the limit: 1 of 214 samples."""
+        text, _ = self.result('''[model.measurands]
+y = "sqrt(x)"
+[quantities]
+x = { value = 2.6, u = 1 }
+[[analysis.conformity]]
+measurand = "y"
+lower = 0
+''')
+        self.assertRegex(text, r"conformance probability > 99\.\d+ %.*\n.*\n  warning: \d+ failed samples are left out; they could move the "
+                               r"conformance probability by 0\.\d+ % at most")
+
+    def test_an_allowed_uncertainty_says_how_well_it_is_known(self):
+        """U^2 of y = 2 a + b + 3 c may have little of b: its allowed u follows from a small difference of large U^2."""
+        self.result('''[model.measurands]
+y = "2*a + b + 3*c"
+[quantities]
+a = { value = "0 um", u = "1 um" }
+b = { value = "0 um", u = "1.732 um" }
+c = { value = "0 um", u = "0.5 um" }
+[[analysis.targets]]
+measurand = "y"
+U = "5 um"
+''')
+        target, = read.result(self.path / "s.h5").targets
+        errors = dict(re.findall(r"(\w) ([\d.]+) %", target.statement))
+        self.assertGreater(float(errors["b"]), 5)
+        self.assertLess(float(errors["a"]), float(errors["b"]))
 
     def test_printed_results_are_compared_by_the_certificate(self):
         """Exponential of mean 2: U = 2 (ln 20 - 1) about the estimate, and not half of the shortest interval, ln 20."""

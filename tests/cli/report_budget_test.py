@@ -200,6 +200,7 @@ class Reduced(Runs):
         row = next(row for row in found.rows if row.name == "a")
         self.assertAlmostEqual(float(row.half), 1e6 * halved, delta=0.1)
         self.assertIn(f"from {rounding.significant(1e6 * u)}\u202fµm", found.text)
+        self.assertIn("where a t distribution counts by its variance", page.render(read.result(self.folder / "s.h5")))
 
     def test_without_a_standard_uncertainty_nothing_is_claimed_of_it(self):
         for x in ('["1.00 mm", "1.02 mm", "1.01 mm"]', '["1.00 mm", "1.02 mm"]'):

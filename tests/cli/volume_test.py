@@ -106,6 +106,26 @@ source = "one fit"
         self.assertAlmostEqual(out["points"][0]["u_x"], u, delta=5 * u / math.sqrt(2e4))
         self.assertAlmostEqual(out["linear_u"], u, delta=5 * u / math.sqrt(2e4))
 
+    def test_what_is_uncertain_across_the_error_is_told(self):
+        """8 um along X, known to 2 um, by E_C0Y over 400 mm; 0 um along Y, known to 5 um, by E_C0X over 500 mm: the length
+        has more than the 2 um that the shares divide."""
+        text = THREE + "[quantities]\n" + '''E_C0X = { value = "0 um/m", u = "10 um/m" }
+E_C0Y = { value = "20 um/m", u = "5 um/m" }
+[volume]
+X = { from = "0 mm", to = "500 mm", points = 2 }
+Y = { from = "0 mm", to = "400 mm", points = 2 }
+Z = "0 mm"
+samples = 20000
+'''
+        out = self.map(text)
+        worst = out["points"][out["largest"]]
+        drawn = np.random.default_rng(1)
+        length = np.hypot(0.5 * drawn.normal(0, 10e-6, 400000), 0.4 * drawn.normal(20e-6, 5e-6, 400000))
+        self.assertAlmostEqual(worst["u_length"], length.std(), delta=5 * length.std() / math.sqrt(2 * 20000))
+        self.assertAlmostEqual(out["linear_u"], 2e-6, delta=0.05e-6)
+        self.assertIn("Along that error, E_C0Y contributes most to the variance", out["statement"])
+        self.assertTrue(any("the length has u = 2.4 um, because what is uncertain across that direction" in n for n in out["notes"]))
+
     def test_the_law_of_propagation_needs_no_samples(self):
         """u and shares are of the declared covariances. Of what is drawn they have the direction of the mean error alone, which
         is known to u / sqrt(100) of 36 um: half a percent."""

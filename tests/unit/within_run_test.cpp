@@ -47,7 +47,8 @@ within = "day"
 samples = 100_000
 seed = 1
 )");
-  const auto rows = analysis::compare(run.c.experiment, analysis::view_of(run.store).values, run.summaries, 1);
+  const auto rows = analysis::compare(run.c.experiment, analysis::view_of(run.store).values, run.summaries,
+                                      std::vector<analysis::Budget>(run.summaries.size()), 1);
   REQUIRE(rows.size() == 2); // of one day each, never of two
   const double n = 1e5, u = std::hypot(30e-6, 30e-6), alone = std::hypot(50e-6, 50e-6),
                difference[] = {-0.2e-3, -0.5e-3};
