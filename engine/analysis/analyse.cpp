@@ -177,6 +177,15 @@ void note_residuals(Results& r) {
                         b.output.name, with_suitable_unit(b.estimate, b.output.unit, b.output.si_unit)));
 }
 
+/// Whether an indication has noise.
+bool noise_declared(const propagation::Experiment& e) {
+  const propagation::Range noise = e.layout().indications;
+  for (std::size_t q = noise.begin; q < noise.end; ++q)
+    for (const quantities::Entry& entry : e.scenario().quantities[q].entries)
+      if (!entry.components.empty()) return true;
+  return false;
+}
+
 InputDraws input_draws(const propagation::Experiment& e) {
   InputDraws draws;
   for (const auto& variate : e.plan().variates) {
@@ -285,6 +294,9 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
   r.comparisons = compare(e, samples.values, r.summaries, r.budgets, threads);
   r.printed = beside_printed(e, r.summaries);
   r.predicted = predicted_readings(e, r.summaries);
+  if (!r.predicted.empty() && !noise_declared(e))
+    r.notes.emplace_back("the coverage intervals of readings are those of the model alone, because no noise of a reading is "
+                         "declared: fewer readings lie in them than their probability says");
   return r;
 }
 

@@ -73,6 +73,14 @@ class Predict(InFolder):
     def test_a_scenario_without_measurands_predicts_and_says_so(self):
         for o in self.line("--samples", "1e4"):
             self.assertIn("no measurands: the readings are predicted", o["run"]["notes"])
+            self.assertFalse(any("those of the model alone" in note for note in o["run"]["notes"]))
+
+    def test_intervals_without_noise_are_those_of_the_model(self):
+        (self.folder / "r.csv").write_text(ROWS)
+        quiet = "\n".join(line for line in LINE.splitlines() if not line.startswith("components")) + "\n"
+        (self.folder / "s.toml").write_text(quiet)
+        for o in self.predict(self.folder / "s.toml", "--samples", "1e4"):
+            self.assertTrue(any("no noise of a reading is declared: fewer readings lie in them" in note for note in o["run"]["notes"]))
 
     def test_a_sample_again_and_another_analysis(self):
         outputs = self.line("--samples", "1e4")
