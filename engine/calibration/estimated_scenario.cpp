@@ -11,6 +11,28 @@ namespace gumshoe::calibration {
 
 using scenario::Node;
 
+namespace {
+
+/// The scatter about the fit as the repeatability of the readings, of which nothing else is declared: a reading to come
+/// has it, too.
+void state_noise(const propagation::Experiment& experiment, const Estimate& estimate, const std::string& source,
+                 ScenarioText& out) {
+  for (const VariableCard& card : experiment.model().card->indications) {
+    Node& place = member(member(out.document(), "indications"), std::string(card.name));
+    if (place.kind != Node::Kind::table) continue;
+    Node noise;
+    noise.members.push_back(
+        {"s", 0, 0, measure_node(estimate.s, std::string(card.unit), std::string(card.si_unit), true)});
+    if (experiment.scenario().estimate.t)
+      noise.members.push_back({"degrees_of_freedom", 0, 0, number_node(estimate.degrees_of_freedom)});
+    noise.members.push_back({"evaluation", 0, 0, text_node("A")});
+    noise.members.push_back({"source", 0, 0, text_node(source)});
+    member(place, "repeatability") = noise;
+  }
+}
+
+} // namespace
+
 std::string estimated_scenario(const propagation::Experiment& experiment, const Estimate& estimate,
                                const std::string& folder) {
   const auto& s = experiment.scenario();
@@ -58,6 +80,8 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
     }
     out.tie(names, matrix, t ? "multivariate_t" : "pearson", source); // what tied the priors is in the fit now
   }
+  if (!estimate.noise_declared && estimate.s > 0 && std::isfinite(estimate.s))
+    state_noise(experiment, estimate, source, out);
   return out.text(source);
 }
 

@@ -186,12 +186,14 @@ ExitCode estimate(const EstimateOptions& o) {
   const store::Claim claim = store::claim_text(out, origin);
   const Estimate result = calibration::estimate(experiment, {o.threads});
   std::string written;
+  bool refused = false;
   if (result.solver.converged) {
     std::string text;
     try {
       text = calibration::estimated_scenario(experiment, result, std::filesystem::path(out).parent_path().string());
     } catch (const InputError& why) { // the result stands; only its scenario cannot be written
       std::cerr << "no scenario is written: " << why.what() << '\n';
+      refused = true;
     }
     if (!text.empty()) {
       store::Draft draft;
@@ -204,6 +206,7 @@ ExitCode estimate(const EstimateOptions& o) {
     print_json(experiment, result, written);
   else
     print_text(experiment, result, written);
+  if (refused) return ExitCode::bad_input; // lest one goes on with the scenario of an earlier fit
   if (result.solver.converged) return ExitCode::done;
   std::cerr << "error: the fit did not converge (" << result.solver.reason
             << "). Use other start values; where readings jump with what is estimated, "

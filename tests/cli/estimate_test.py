@@ -64,6 +64,19 @@ class Estimate(InFolder):
         self.assertAlmostEqual(fit["correlation"][0][1], -2 / math.sqrt(6), 12)
         self.assertEqual((fit["rank"], fit["degrees_of_freedom"], fit["converged"]), (2, 3, True))
 
+    def test_a_predicted_reading_has_the_scatter_about_the_fit(self):
+        """u^2 = s^2 (1 + 1/n + (x - 2)^2 / Sxx); of measurands that no reading enters, u stays that of the parameters."""
+        fit = self.fit()
+        for words, expected in ((("--predict",), [fit["s"] * math.sqrt(1 + 1 / 5 + (x - 2) ** 2 / 10) for x in range(5)]),
+                                ((), [fit["s"] * math.sqrt(1 / 5 + 8**2 / 10)] * 5)):
+            run = gumshoe("run", self.folder / "results/line.estimated.toml", *words, "--samples", "20000", "--format", "json",
+                          "--out", self.folder / "r.h5", "--force")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found = [o["gum"]["combined_standard_uncertainty"] for o in json.loads(run.stdout)]
+            self.assertEqual(len(found), 5 if words else len(found))
+            for u, wanted in zip(found, expected):
+                self.assertAlmostEqual(u, wanted, 12)
+
     def test_the_written_scenario_runs(self):
         self.fit()
         written = self.folder / "results/line.estimated.toml"
@@ -144,7 +157,7 @@ class Estimate(InFolder):
 
     def test_one_valued_column_beside_labels(self):
         text = LINE.replace("conditions = { x", 'labels = { n = "n" }, conditions = { x')
-        fit = self.fit(text, data="n,x,y\na,2,1\nb,2,2\nc,2,3\nd,2,4\n")
+        fit = self.fit(text, data="n,x,y\na,2,1\nb,2,2\nc,2,3\nd,2,4\n", code=2)
         self.assertEqual(fit["rank"], 1)
         self.assertIn("indistinguishable", fit["indistinguishable"][0])
         self.assertIsNone(fit["parameters"]["a"]["standard_uncertainty"])

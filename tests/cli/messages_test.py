@@ -291,7 +291,7 @@ class Messages(InFolder):
             'rows = [{ n = "1", values = ["3 mm"] }, { n = "2", values = ["3 mm"] }]\n')
         self.file.write_text(text)
         run = gumshoe("estimate", self.file, cwd=self.file.parent)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.returncode, 2, run.stderr)  # lest a script goes on with an older scenario
         self.assertIn("no scenario is written", run.stderr)
         self.assertIn("the data do not determine it", run.stderr)
 
