@@ -48,7 +48,7 @@ std::vector<InputRecord> input_records(const scenario::Scenario& s) {
         if (record.evaluation.find(c.evaluation) == std::string::npos) record.evaluation += c.evaluation;
         if (const std::string scope = scope_text(c); scopes.insert(scope).second)
           record.scope += (scopes.size() == 1 ? "" : " + ") + scope;
-        if (!c.source.empty()) record.source += (record.source.empty() ? "" : "; ") + c.source;
+        if (!c.source.empty() && c.source != entry.source) record.source += (record.source.empty() ? "" : "; ") + c.source;
       }
       record.standard_uncertainty = std::sqrt(variance);
       out.push_back(record);

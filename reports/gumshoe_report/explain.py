@@ -15,6 +15,11 @@ def first_orders(indices):
     return {name: pair for name, pair in pairs.items() if all(map(math.isfinite, pair))}
 
 
+def independent(b):
+    """Whether a budget has no share of correlations, but for rounding."""
+    return not abs(b.correlation_share) > 1e-12
+
+
 def law_accounts(b, output, verdict=""):
     """accounts_for_variance() of the engine: the framework is validated, or the variances by the law of propagation and
     by Monte Carlo differ by no more than APART and twice the Monte Carlo standard error."""
@@ -58,7 +63,10 @@ def reasons(budget, indices, shapley):
                      f"{fixed(sum(known[n][1] for n in kinks), 2)}")
         told.update(kinks)
     flat = [n for n, c in rows.items() if n in known and n not in told and c.share < NEGLIGIBLE and known[n][1] > APART]
-    if flat:
+    if flat and indices is None and not independent(budget):
+        found.append(f"{listed(flat)} {'has' if len(flat) == 1 else 'have'} next to no contribution of {'its' if len(flat) == 1 else 'their'} "
+                     "own, but correlated inputs share their Shapley effects")
+    elif flat:
         totals = listed(f"{n} (total {fixed(known[n][1], 2)})" for n in flat)
         zero = all(rows[n].sensitivity == 0 for n in flat)
         found.append(f"the slope c_i is {'zero' if zero else 'next to zero'} at the estimate, so the budget does not "
@@ -88,6 +96,8 @@ def why(budget, indices, shapley, u_monte_carlo):
     shares = budget is not None and (budget.applicable or any(math.isfinite(c.share) or not c.differentiable for c in rows))
     if not rows or not shares:
         return ""
+    if not math.isfinite(u_monte_carlo):
+        return "No standard uncertainty exists, and so no variance that the indices could divide: they do not settle, whatever they show."
     apart = {c.name: abs((c.share if math.isfinite(c.share) else 0.0) - known[c.name][0]) for c in rows}
     worst = max(apart, key=apart.get)
     hidden = max((known[c.name][1] - known[c.name][0] for c in rows), default=0)

@@ -2,9 +2,9 @@
 import math
 import types
 
-from .explain import APART, drawn_uncertainty, heavier, listed
+from .explain import APART, drawn_uncertainty, heavier, independent, listed
 from .rounding import after, finer, percent, significant, unit_text
-from .tables import independent, spread
+from .tables import spread
 
 LISTED, WORTH = 5, 0.01  # rows; the least share of the variance that is worth an effort
 OF_THE_DATA = "stated for every indication"  # the program's own words for `u` of an indication
@@ -79,7 +79,7 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
         return None
     if not math.isfinite(u_monte_carlo):
         return without_u(b)
-    correlated = abs(b.correlation_share) > WORTH
+    correlated = not independent(b)
     if not math.isfinite(b.correlation_share):  # no budget: Shapley effects in place of Sobol' indices are a sign of correlation
         correlated = shapley is not None and sobol is None
     if correlated:

@@ -164,7 +164,9 @@ def chance(p, se=math.nan, least=0.0):
     """A probability with as many digits as its standard error allows; a bound where samples do not resolve it."""
     if not (math.isfinite(se) and se > 0) or not least <= p <= 1 - least:
         return resolved(p, least or EXACT)
-    places = max(0, min(9, decimals(100 * se)))
+    places = max(0, decimals(100 * se))
+    if places > 9:
+        return f"{fixed(100 * p, 9)}\u202f%"
     return f"({fixed(100 * p, places)} ± {fixed(100 * se, places)})\u202f%"
 
 

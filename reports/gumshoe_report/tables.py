@@ -4,7 +4,7 @@ import re
 import types
 
 from . import conditions
-from .explain import cancels
+from .explain import cancels, independent
 from .rounding import after, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
@@ -166,11 +166,6 @@ def alike(rows, sobol):
             "sensitivity": same.pop() if len(same) == 1 else math.nan, "share": total("share"),
             "monte_carlo_share": total("monte_carlo_share") if known("monte_carlo_share") else whole, "contribution": math.hypot(*known("contribution"))
             if known("contribution") else math.nan})
-
-
-def independent(b):
-    """Whether a budget has no share of correlations, but for rounding."""
-    return not abs(b.correlation_share) > 1e-12
 
 
 def budget(b, u_monte_carlo=math.nan, sobol=None):

@@ -5,8 +5,9 @@ import re
 import zipfile
 from xml.sax.saxutils import escape, quoteattr
 
+from .explain import independent
 from .rounding import probability
-from .tables import coefficient, independent, point, spread
+from .tables import coefficient, point, spread
 
 TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"

@@ -257,6 +257,7 @@ class Conformity(Runs):
         self.assertEqual(risks["specific consumer’s risk"], "< 0.006 %")
         self.assertEqual(risks["global consumer’s risk R_C"], "< 0.006 %")
         self.assertEqual(risks["process conformance"], "> 99.9999 %")
+        self.assertEqual(studies.chance(0.8185946, 1e-13, 1e-4), "81.859460000\u202f%")  # no error of zero
         for value in (c.p_c, *risks.values()):
             if "±" not in value:
                 self.assertIn(value.replace("\u202f", " "), c.statement)
@@ -287,6 +288,33 @@ class Cancelling(Runs):
         printed = self.ran(CANCELLING % 0.4, "--budget")  # 1 + 1 - 0.8 = 1.2
         self.assertRegex(printed, r"largest contributions: a 1\.0 mm \(83 %\), b 1\.0 mm \(83 %\), correlations -67 %\n")
         self.assertIn("-66.7\u202f%".replace("-", "−"), page.render(read.result(self.folder / "s.h5")))
+
+
+class Reasons(Runs):
+    """Why budget and indices differ is said of this model, and of no other."""
+
+    def why(self, text):
+        r = self.result(text)
+        o, b = r.outputs[0], r.budgets[0]
+        sobol, shapley = (studies[0] if studies else None for studies in (r.sensitivities, r.shapley))
+        u = o.standard_uncertainty
+        return explain.why(b, sobol, shapley, u), reduce.table(b, u, sobol, shapley)
+
+    def test_a_correlated_input_is_no_bend(self):
+        """y = a + b / 1000 is linear; b has its Shapley effect of the variance that it shares with a."""
+        text = CANCELLING.replace('"a - b"', '"a + b / 1000"') % 0.8
+        said, table = self.why(text)
+        self.assertIn("b has next to no contribution of its own, but correlated inputs share their Shapley effects", said)
+        self.assertNotIn("not linear", said)
+        self.assertEqual(table.rows, [])
+        self.assertIn("The inputs depend on each other", table.text)
+
+    def test_no_variance_has_shares(self):
+        """A sum with a t of 2 degrees of freedom."""
+        text = LINEAR % ("a + b", 5, ", degrees_of_freedom = 2") + "[analysis]\nsensitivity = { sobol = 1024 }\n"
+        said, _ = self.why(text)
+        self.assertIn("no variance that the indices could divide", said)
+        self.assertNotIn("not linear", said)
 
 
 class Places(unittest.TestCase):
