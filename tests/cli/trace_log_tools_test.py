@@ -50,5 +50,23 @@ class Tools(TracedLog):
             self.assertFalse([f for f in verdict["findings"] if "step:time" in f.get("described_by", "")])
 
 
+class LongBlocks(TracedLog):
+    def test_blocks_of_many_readings_scatter(self):
+        """Twenty blocks of ninety readings, each off by its own 3 um: noise that resembles the reading before it, as
+        strongly as is tried, explains much of that, and no draw of such noise has a block's scatter."""
+        noise = random.Random(5)
+        rows = ["block,direction,x (mm),time (min),e (um)"]
+        for block in range(20):
+            off = noise.gauss(0, 3)
+            for way, places in (("up", range(45)), ("down", range(44, -1, -1))):
+                for k, place in enumerate(places):
+                    time = 120 * block + 40 * (way == "down") + 0.8 * k
+                    rows.append(f"{block + 1},{way},{10 * place},{time:.1f},{off + noise.gauss(0, 1):.2f}")
+        self.log(rows)
+        verdict = self.verdict("log.toml")
+        scatter, = (f for f in verdict["findings"] if f["kind"] == "scatter")
+        self.assertEqual(scatter["depends_on"], ["block"])
+
+
 if __name__ == "__main__":
     unittest.main()

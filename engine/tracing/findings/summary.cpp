@@ -108,6 +108,14 @@ std::string bad_readings(const Trace& t) {
              : fmt::format("{} readings are outlying; the worst, {}, by {}. Check them.", count, worst.reading, off);
 }
 
+/// Whether the residuals are larger than noise alone gives because of outlying readings: without these they are not.
+bool outliers_enlarge(const Trace& t) {
+  double squares = 0;
+  for (const Outlier& o : t.outliers) squares += o.residual * o.residual;
+  const double readings = static_cast<double>(std::max<std::size_t>(1, t.rows.size()));
+  return !t.outliers.empty() && t.rms.before * t.rms.before - squares / readings <= t.rms.noise_high * t.rms.noise_high;
+}
+
 /// Nothing was found: are the residuals as small as noise makes them?
 std::string what_residuals_show(const Trace& t) {
   const Rms& r = t.rms;
@@ -123,7 +131,7 @@ std::string what_residuals_show(const Trace& t) {
     return fmt::format("No candidate explains it: {}{}",
                        r.holdout_after_winsorised > by_far * r.holdout_noise_high ? "" : std::string(chance) + " ",
                        lacks);
-  if (r.before > r.noise_high && t.p_anything > t.alpha && !t.outliers.empty())
+  if (r.before > r.noise_high && t.p_anything > t.alpha && outliers_enlarge(t))
     return fmt::format(
         "The residuals of the training data ({}) are larger than noise alone gives ({}), because {} outlying; "
         "the worst, {}, by {}. Check it.",

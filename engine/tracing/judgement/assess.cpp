@@ -42,6 +42,18 @@ std::vector<Null> nulls_of(const Matrix& draws, const std::vector<double>& rarit
   return out;
 }
 
+/// The same of variance components. Of draws that resemble those before them, as long blocks with an offset each do,
+/// hardly any has a component that explains more than that: then as one size by chance does, chi-squared.
+std::vector<Null> nulls_of_components(const Matrix& draws) {
+  constexpr double few = 0.02;
+  std::vector<Null> out = nulls_of(draws);
+  for (Index j = 0; j < draws.rows(); ++j) {
+    const auto first = draws.row(j).head(draws.cols() / 2);
+    if (static_cast<double>((first.array() > 0).count()) < few * static_cast<double>(first.size())) out[index(j)] = Null{};
+  }
+  return out;
+}
+
 /// The smallest p-value of the statistics of one data set.
 double least_p(const std::vector<Null>& nulls, const Matrix& statistics, Index set, double least = 1) {
   for (std::size_t j = 0; j < nulls.size(); ++j) least = std::min(least, nulls[j].p(statistics(index(j), set)));
@@ -187,7 +199,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
   out.null = nulls_of(nothing.ratio, rarity);
-  const auto component = nulls_of(nothing.scatter);
+  const auto component = nulls_of_components(nothing.scatter);
   const double drawn_variance = steps ? nothing.variance_without_scatter.mean() : out.data.variance_without_scatter[0];
   const NoiseSize size(scan, out.data, nothing, std::sqrt(drawn_variance) * out.noise_shape.core(), declared, freedom,
                        repeats ? repeats->step : 0);
