@@ -186,6 +186,34 @@ bool noise_declared(const propagation::Experiment& e) {
   return false;
 }
 
+/// Notes outputs that depend on readings and on what a fit to readings found: their errors are not independent if the
+/// readings are the same.
+void note_readings_used_twice(Results& r, const propagation::Experiment& e) {
+  if (e.scenario().method != scenario::Method::propagation) return;
+  const propagation::Range noise = e.layout().indications;
+  const auto is_reading = [&](const Contribution& c) {
+    for (std::size_t q = noise.begin; q < noise.end; ++q)
+      if (e.scenario().quantities[q].name == c.quantity) return true;
+    return false;
+  };
+  std::vector<std::string> names;
+  for (const Budget& b : r.budgets) {
+    const auto counts = [](const Contribution& c) { return c.share > 1e-6; };
+    if (std::ranges::any_of(b.contributions, [&](const auto& c) { return counts(c) && is_reading(c); }) &&
+        std::ranges::any_of(b.contributions,
+                            [&](const auto& c) { return counts(c) && c.source.starts_with("gumshoe estimate of"); }))
+      names.push_back(b.output.name);
+  }
+  constexpr std::size_t most = 4;
+  if (names.empty()) return;
+  const std::string others = names.size() > most ? fmt::format(" and {} more", names.size() - most) : "";
+  if (names.size() > most) names.resize(most);
+  r.notes.push_back(
+      fmt::format("{}{}: the readings and what was estimated are taken as independent; of the readings to which "
+                  "it was fitted that is not true",
+                  fmt::join(names, ", "), others));
+}
+
 InputDraws input_draws(const propagation::Experiment& e) {
   InputDraws draws;
   for (const auto& variate : e.plan().variates) {
@@ -293,6 +321,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
   if (s.run.store_inputs) r.draws = input_draws(e);
   r.comparisons = compare(e, samples.values, r.summaries, r.budgets, threads);
   r.printed = beside_printed(e, r.summaries);
+  note_readings_used_twice(r, e);
   r.predicted = predicted_readings(e, r.summaries);
   if (!r.predicted.empty() && !noise_declared(e))
     r.notes.emplace_back("the coverage intervals of readings are those of the model alone, because no noise of a reading is "

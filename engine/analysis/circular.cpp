@@ -104,7 +104,7 @@ CircularSummary circular_summary(const Column& angles, double p, int threads) {
 void correct_by_circle(Summary& s, const CircularSummary& c, double p) {
   const auto& o = s.output;
   const auto shown = [&](double x) { return units::from_si(x, o.unit, o.si_unit); };
-  const int d = decimals_for(shown(c.standard_deviation));
+  const int d = std::max(0, decimals_for(0.1 * shown(c.standard_deviation))); // an arc may be nearly the circle
   const std::string unit = units::suffix(o.unit);
   s.statement =
       fmt::format("{}: mean direction {}{} with a standard deviation of {}{} on the circle; the shortest arc of {} "

@@ -44,6 +44,34 @@ double variance(const quantities::Distribution& d, bool& finite) {
   return d.standard_uncertainty() * d.standard_uncertainty();
 }
 
+/// How well the declared noise of readings is known.
+class FreedomOfNoise {
+public:
+  static constexpr double few = 20; ///< degrees of freedom below which a reading's own s is a weight by chance
+
+  void add(const quantities::SamplePlan& plan, const std::vector<std::size_t>& variates, int repeats) {
+    double known = 0, t = 0, freedom = HUGE_VAL;
+    for (const std::size_t v : variates) {
+      const quantities::Distribution& d = plan.variates[v].distribution;
+      const double square = d.standard_uncertainty() * d.standard_uncertainty();
+      if (d.family == quantities::Family::t)
+        t += square, freedom = std::min(freedom, d.parameters[2]);
+      else
+        known += square;
+    }
+    least_ = std::min(least_, freedom);
+    const double s = std::sqrt(t * repeats), share = t > 0 ? t / (t + known) : 0;
+    low_ = std::min(low_, s), high_ = std::max(high_, s);
+    effective_ = std::min(effective_, share > 0 ? freedom / (share * share) : HUGE_VAL);
+  }
+  double common() const { return one_s() ? effective_ : HUGE_VAL; }
+  double own() const { return one_s() ? HUGE_VAL : least_; }
+
+private:
+  bool one_s() const { return high_ - low_ <= 1e-9 * high_; }
+  double least_ = HUGE_VAL, effective_ = HUGE_VAL, low_ = HUGE_VAL, high_ = 0;
+};
+
 } // namespace
 
 void refuse(const std::string& file, std::string what, std::string why, std::string remedy) {
@@ -105,6 +133,7 @@ Data data_of(const Experiment& e) {
   std::map<std::size_t, std::vector<std::size_t>> rows_of; // variate to rows
   std::string quiet, loud;
   bool finite = true;
+  FreedomOfNoise freedom;
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
     if (s.readings[r].indications.size() != indications)
       refuse(s.file, "there are no readings to fit", "no indication has readings",
@@ -126,6 +155,7 @@ Data data_of(const Experiment& e) {
         rows_of[v].push_back(row);
       }
       out.u.push_back(std::sqrt(squares));
+      freedom.add(plan, plan.columns[plan.gather[r][noise[k]]].variates, s.readings[r].repeats);
       (squares > 0 ? loud : quiet) = s.quantities[noise[k]].name;
     }
   }
@@ -134,6 +164,13 @@ Data data_of(const Experiment& e) {
         "the noise is a t distribution with too few degrees of freedom for a standard uncertainty; its scale "
         "s / sqrt(n) is used as the weight of the readings");
   out.noise_declared = !loud.empty();
+  out.noise_freedom = freedom.common();
+  if (const double own = freedom.own(); own < FreedomOfNoise::few)
+    out.notes.push_back(fmt::format(
+        "each reading is weighted by the scatter of its own repeats, of {:.3g} degree{} of freedom: such weights are "
+        "chance, and the standard uncertainties too small; if all scatter alike, state repeatability = {{ pooled "
+        "= true }}",
+        own, own == 1 ? "" : "s"));
   if (!loud.empty() && !quiet.empty())
     refuse(s.file, fmt::format("indications.{}: no noise is declared, but {} has some", quiet, loud),
            "the relative weights of the readings are unknown", "repeatability = { s = \"...\" }");

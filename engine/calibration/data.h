@@ -1,5 +1,6 @@
 #pragma once
 /// What a fit sees of a scenario: the unknowns, the measured indications with their noise, and the simulated ones.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct Data {
   double pure_error = 0;   ///< sum of squares of repeats about their means, and its degrees of freedom: part of s
   double pure_freedom = 0; ///< where no noise is declared
   std::vector<double> u;   ///< standard uncertainty of each row's noise, SI
+  /// Degrees of freedom of the declared noise where one s serves all readings (GUM G.4.1); infinite where it is known,
+  /// or each reading has its own.
+  double noise_freedom = HUGE_VAL;
   /// Lower Cholesky factor of the noise's covariance matrix, row-major, where rows share draws; else empty.
   std::vector<double> cholesky;
   std::vector<std::string> notes;

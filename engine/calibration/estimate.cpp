@@ -102,6 +102,7 @@ double Fit::variance_factor(Estimate& out, std::size_t rank) const {
   // Repeats of a reading know the noise too: with them the fit of the means is the fit of all readouts.
   const bool repeats = !data_.noise_declared && loss_ == Loss::squared;
   if (repeats) out.residual_sum_of_squares += data_.pure_error;
+  out.noise_freedom = data_.noise_freedom;
   out.degrees_of_freedom = data_.noise_declared ? left + static_cast<double>(priors_.target.size())
                            : priors_.target.empty() || loss_ != Loss::squared
                                ? left + (repeats ? data_.pure_freedom : 0)

@@ -34,6 +34,7 @@ struct Estimate {
   /// else the factor (1 expected) on the declared noise that the residuals show.
   double s = 0;
   double degrees_of_freedom = 0;      ///< of s
+  double noise_freedom = 0;           ///< of the declared noise, Data::noise_freedom
   double chi_squared = 0;             ///< of data and priors, where noise is declared; NaN else
   double chi_squared_probability = 0; ///< of a larger value; NaN without declared noise
   double residual_sum_of_squares = 0; ///< whitened by the declared noise, else in SI

@@ -48,7 +48,8 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
   const std::string source =
       fmt::format("gumshoe estimate of {}, {} readings, hash of scenario and data {}",
                   std::filesystem::path(s.file).filename().string(), estimate.rows.size(), s.hash);
-  const bool t = s.estimate.t && !estimate.noise_declared;
+  const double freedom = estimate.noise_declared ? estimate.noise_freedom : estimate.degrees_of_freedom;
+  const bool t = s.estimate.t && std::isfinite(freedom);
   std::vector<std::size_t> uncertain;
   for (std::size_t i = 0; i < estimate.parameters.size(); ++i) {
     const Parameter& p = estimate.parameters[i];
@@ -63,8 +64,7 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
     if (p.standard_uncertainty > 0) {
       if (t) known.members.push_back({"distribution", 0, 0, text_node("t")});
       known.members.push_back({"u", 0, 0, measure(p.standard_uncertainty, true)});
-      if (t)
-        known.members.push_back({"degrees_of_freedom", 0, 0, number_node(estimate.degrees_of_freedom)});
+      if (t) known.members.push_back({"degrees_of_freedom", 0, 0, number_node(freedom)});
       known.members.push_back({"evaluation", 0, 0, text_node("A")});
       uncertain.push_back(i);
     }

@@ -1,6 +1,7 @@
 // What a reader of an estimate must know beyond its numbers.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,11 @@ double uncertainty_of(const quantities::InputQuantity& quantity) {
 
 void Fit::remarks(Estimate& out) const {
   const auto& s = experiment_.scenario();
+  // What is said of the data; that readings without noise are exact is not true of a fit.
+  const auto of_data = [](const std::string& note) { return !note.ends_with("the readings are treated as exact"); };
+  std::vector<std::string> said;
+  std::ranges::copy_if(s.notes, std::back_inserter(said), of_data);
+  out.notes.insert(out.notes.begin(), said.begin(), said.end());
   const auto& card = *experiment_.model().card;
   for (std::size_t q = 0; q < s.quantities.size(); ++q) {
     if (experiment_.layout().indications.contains(q)) continue;

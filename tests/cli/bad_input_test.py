@@ -44,6 +44,8 @@ MISTAKES = {
     "unknown method": (swap('"rod_gauging"', '"rod_gauging"\nmethod = "guess"'), 4, ["'guess'", "propagation"]),
     "another schema": (swap("schema = 1", "schema = 2"), 1, ["schema"]),
     "no schema": (swap("schema = 1", "title = 'x'"), 1, ["schema"]),
+    "a direction that is none": (SCENARIO + "[conditions]\ndirection = 2\n", 15, ["direction must be 1, -1 or 0"]),
+    "negative feed": (SCENARIO + '[conditions]\nfeed = "-4 mm/min"\n', 15, ["feed is negative"]),
     "negative radius": (of_radius('value = "-5 mm"'), 5, ["rod_radius", "-5 mm", "above 0"]),
     "radius of zero": (of_radius('value = "0 mm"'), 5, ["rod_radius", "above 0"]),
     "radius that can become negative": (of_radius('value = "5 mm"\ndistribution = "rectangular"\nhalf_width = "6 mm"'), 5, ["rod_radius"]),

@@ -77,6 +77,47 @@ class Estimate(InFolder):
             for u, wanted in zip(found, expected):
                 self.assertAlmostEqual(u, wanted, 12)
 
+    def written(self):
+        with open(self.folder / "results/line.estimated.toml", "rb") as file:
+            return tomllib.load(file)
+
+    def test_a_declared_s_of_few_degrees_of_freedom_makes_a_t(self):
+        """One s for all readings, known from four: so are all that follow from it."""
+        fit = self.fit(LINE + "repeatability = { s = 0.15, degrees_of_freedom = 3 }\n")
+        a = self.written()["quantities"]["a"]
+        self.assertEqual((a["distribution"], a["degrees_of_freedom"]), ("t", 3))
+        self.assertAlmostEqual(a["u"], 0.15 * math.sqrt(1 / 5 + 4 / 10), 12)
+        # A quarter of the variance is known exactly: nu / (3/4)^2.
+        self.fit(LINE + "repeatability = { s = 0.15, degrees_of_freedom = 3 }\n"
+                 f"components = [{{ u = {0.15 / math.sqrt(3)}, per = 'reading' }}]\n")
+        self.assertAlmostEqual(self.written()["quantities"]["a"]["degrees_of_freedom"], 3 / 0.75**2, 9)
+        self.fit(LINE + "repeatability = { s = 0.15 }\n")
+        self.assertNotIn("degrees_of_freedom", self.written()["quantities"]["a"])
+        self.assertEqual(fit["notes"], [])
+
+    def test_weights_by_few_repeats_are_chance(self):
+        """Over many such fits the estimates scatter by several of their u: that must be said."""
+        data = "x,y\n" + "".join(f"{x},{y + d}\n" for x, y in enumerate((1.1, 2.9, 5.2, 6.8, 9.1))
+                                 for d in (0.1 * (x + 1), 0, -0.05 * (x + 2)))
+        own = self.fit(LINE + 'repeatability = "readings"\n', data=data)
+        self.assertTrue(any("of 2 degrees of freedom: such weights are chance" in n for n in own["notes"]), own["notes"])
+        pooled = self.fit(LINE + "repeatability = { pooled = true }\n", data=data)
+        self.assertFalse(any("such weights are chance" in n for n in pooled["notes"]))
+        self.assertEqual(self.written()["quantities"]["a"]["degrees_of_freedom"], 10)
+
+    def test_what_is_said_of_the_data_is_said_of_the_fit(self):
+        text = LINE.replace('unit = "1", conditions = { x = { column = "x" } }', 'unit = "um", conditions = { x = { column = "x" } }') \
+                   .replace('column = "y"', 'column = "y_mm"').replace("value = 0", 'value = "0 um"').replace("value = 1", 'value = "1 um"')
+        fit = self.fit(text, data=DATA.replace("x,y", "x,y_mm"))
+        self.assertTrue(any("column 'y_mm' is read in um, but its name states mm" in note for note in fit["notes"]), fit["notes"])
+
+    def test_readings_that_serve_twice_are_told(self):
+        """The residual of a reading and its own fit is smaller than both are apart."""
+        self.fit(LINE.replace('at_10 = "a + 10 * b"', 'left = "y - a - b * x"'))
+        run = gumshoe("run", self.folder / "results/line.estimated.toml", "--samples", "20000", "--out", self.folder / "r.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("and 1 more: the readings and what was estimated are taken as independent", run.stdout)
+
     def test_the_written_scenario_runs(self):
         self.fit()
         written = self.folder / "results/line.estimated.toml"

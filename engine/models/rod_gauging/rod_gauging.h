@@ -52,6 +52,12 @@ struct RodGauging {
       .stages = stages,
       .timing = timing_cards};
 
+  template <class T> static void check_commanded(const At<T>& at, Outcome<T>& outcome) {
+    const T zero(0.0), one(1.0), way = at.c.direction;
+    outcome.refuse(at.c.feed < zero, "feed is negative");
+    outcome.refuse((way != one) && (way != -one) && (way != zero), "direction must be 1, -1 or 0");
+  }
+
   template <class T> static void check(const At<T>& at, Outcome<T>& outcome) {
     outcome.refuse(at.q.fillet_radius > at.q.rod_radius, "fillet_radius exceeds rod_radius");
   }
