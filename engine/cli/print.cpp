@@ -214,6 +214,18 @@ void print_published(const Results& r, bool all) {
   }
 }
 
+/// Of many decisions one line, and those of which least is sure.
+void count_conformity(std::vector<ConformityResult>& all) {
+  if (all.size() <= most_lines) return;
+  const auto accepted = std::ranges::count(all, true, &ConformityResult::accepted);
+  const auto sure = [](const ConformityResult& c) { return std::fabs(c.conformance_probability - 0.5); };
+  std::ranges::stable_sort(all, {}, sure);
+  std::cout << fmt::format(
+      "conformity: {} of {} accepted, {} rejected; the {} of which least is sure (--all prints all):\n", accepted,
+      all.size(), all.size() - static_cast<std::size_t>(accepted), most_lines);
+  all.resize(most_lines);
+}
+
 void print_predicted(const Results& r) {
   if (r.predicted.empty()) return;
   std::cout << fmt::format("{} of {} readings lie in their {} coverage intervals\n",
@@ -229,6 +241,7 @@ void print_text(const Results& r, const std::string& file, const PrintOptions& o
   print_validations(r);
   Results in_full = r;
   keep_outputs(in_full, [&](const auto& output) { return printed.contains(output.name); });
+  if (!options.all) count_conformity(in_full.conformity);
   print_studies(in_full, std::cout);
   print_comparisons(r, options.all);
   print_published(r, options.all);

@@ -22,7 +22,7 @@ enum class Kind {
 /// "named", "class", "scatter", "not_in_catalogue"
 const char* name(Kind kind);
 
-/// Size of an effect, with an interval that allows for the search (README.md).
+/// Size of an effect, with an interval that allows for the search (README.md) where it is the only one.
 struct SizedQuantity {
   std::string name; ///< "delay"; for a declared quantity its name
   std::string unit, si_unit;

@@ -204,8 +204,8 @@ class Trace:
         if self.is_rejected(f):
             return "Do not correct for it: the hold-out blocks reject it. Measure more blocks to decide."
         if f.kind == "named" and f.quantities:
-            q = self.sizes(f)[0]
-            size = f"{q.name} {with_unit(q.value, q.unit)}, 95{SPACE}% interval [{q.low}, {q.high}]"
+            size = "; ".join(f"{q.name} {with_unit(q.value, q.unit)}, 95{SPACE}% interval [{q.low}, {q.high}]"
+                             for q in self.sizes(f))
             if getattr(f, "implausible", ""):
                 return f"Find its cause before you correct for it: a size {f.implausible} is likely an alias of another effect's."
             if f.name.startswith("declared:"):

@@ -155,6 +155,25 @@ lower = 0
         self.assertRegex(text, r"conformance probability > 99\.\d+ %.*\n.*\n  warning: \d+ failed samples are left out; they could move the "
                                r"conformance probability by 0\.\d+ % at most")
 
+    def test_of_many_decisions_those_of_which_least_is_sure(self):
+        """Forty parts, 1 um apart, u = 3 um: those within 6 um of the limit."""
+        (self.path / "z.csv").write_text("part,z (um)\n" + "".join(f"{k},{k}\n" for k in range(40)))
+        text, _ = self.result('''[model.measurands]
+d = { formula = "z", unit = "um" }
+[indications.z]
+u = "3 um"
+readings = { file = "z.csv", column = "z (um)", unit = "um", labels = { part = "part" } }
+[[analysis.conformity]]
+measurand = "d"
+upper = "20.1 um"
+''')
+        self.assertIn("conformity: 21 of 40 accepted, 19 rejected; the 12 of which least is sure (--all prints all):\n", text)
+        told = re.findall(r"conformity of d\[part (\d+)\]", text)
+        self.assertEqual(len(told), 12)
+        self.assertTrue(all(14 < int(part) < 27 for part in told), told)
+        every = self.run_command("run", "s.toml", "--out", "s.h5", "--force", "--samples", 20000, "--all")
+        self.assertEqual(len(re.findall("conformity of d", every)), 40)
+
     def test_an_allowed_uncertainty_says_how_well_it_is_known(self):
         """U^2 of y = 2 a + b + 3 c may have little of b: its allowed u follows from a small difference of large U^2."""
         self.result('''[model.measurands]

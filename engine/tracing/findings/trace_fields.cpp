@@ -46,13 +46,13 @@ using Q = SizeRow;
 constexpr Field<Q> sizes[] = {
     {"name", of<&Q::name>, one, "quantity"},
     {"member", of<&Q::member>, one, "effect whose size it is"},
-    {"scenario_name", of<&Q::scenario_name>, one,
-     "name in a scenario; empty: none, and the value is a difference"},
+    {"scenario_name", of<&Q::scenario_name>, one, "name in a scenario; empty: none, and the value is a difference"},
     {"labels", of<&Q::label_values>, one, "label values for which it holds"},
     {"units", nullptr, units, ""},
     {"value", of<&Q::value>, point, "estimate"},
     {"standard_uncertainty", of<&Q::u>, difference, "standard uncertainty"},
-    {"low", of<&Q::low95>, point, "lower end of the 95 % interval that allows for the search"},
+    {"low", of<&Q::low95>, point,
+     "lower end of the 95 % interval, which allows for the search where one size was found alone"},
     {"high", of<&Q::high95>, point, "upper end of that interval"}};
 
 using C = RankedCandidate;
