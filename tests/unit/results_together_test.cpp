@@ -28,8 +28,7 @@ Contribution component(const std::string& name, double contribution, double degr
   return c;
 }
 
-/// A result of y whose u is that of its components; k is that of its degrees of freedom, infinite ones those of
-/// samples.
+/// A result of y whose u is that of its components, in samples and budget; k is that of its degrees of freedom.
 Results result(double y, const std::vector<Contribution>& components, double degrees_of_freedom = infinity) {
   Results out;
   Summary s;
@@ -46,6 +45,9 @@ Results result(double y, const std::vector<Contribution>& components, double deg
   Budget budget;
   budget.output = s.output;
   budget.contributions = components;
+  for (Contribution& c : budget.contributions) c.share = c.contribution * c.contribution / square;
+  budget.combined_standard_uncertainty = s.standard_uncertainty;
+  budget.effective_degrees_of_freedom = degrees_of_freedom;
   out.budgets.push_back(budget);
   return out;
 }
@@ -141,6 +143,12 @@ TEST_CASE("a component whose u is a t's counts in samples by its standard deviat
     s.standard_uncertainty = 3; // own 1, reference 2 sqrt(2)
     s.expanded_uncertainty = 3 * s.coverage_factor;
   }
+  // Where the budgets account for that, u is theirs: 1 + 4.
+  const WeightedMean law = mean_of({a, b}, {"reference"});
+  CHECK(law.shared[0].contributions[0] == Approx(2));
+  CHECK(law.mean.standard_uncertainty == Approx(std::sqrt(4 + 0.5)));
+  // One that is not linear, and all are those of the samples.
+  b.budgets[0].applicable = false;
   const WeightedMean m = mean_of({a, b}, {"reference"});
   CHECK(m.shared[0].contributions[0] == Approx(2 * std::sqrt(2.0)));
   CHECK(m.parts[0].own == Approx(1));
@@ -161,7 +169,7 @@ TEST_CASE("what is no result of the same measurand, or has no weight, is not com
   angle.summaries[0].output.si_unit = "rad";
   refused({good, angle}, "different dimensions");
   Results exact = good;
-  exact.summaries[0].expanded_uncertainty = 0;
+  exact.summaries[0].standard_uncertainty = 0;
   refused({good, exact}, "no standard uncertainty");
   Results wide = good;
   wide.coverage_probability = 0.99;
