@@ -82,15 +82,21 @@ private:
   std::string intermediates_;
 };
 
-/// A measurand may have the name of a quantity only if it is that quantity: other formulas mean the quantity by it. In
-/// a virtual experiment it is the true value that the measurand estimates.
+/// A measurand may have the name of a quantity, as its true value from which readings are simulated, unless a formula
+/// of the evaluation has that name in it: it would mean the quantity.
 void refuse_names_of_quantities(const formula::Statement& s, Problems& problems) {
+  const auto ambiguous = [&](const std::string& name) {
+    const auto other = [&](const formula::Stated& f) {
+      return f.formula.text != name && mentions(f.formula.text, name);
+    };
+    return std::ranges::any_of(s.measurands, other) || std::ranges::any_of(s.intermediates, other);
+  };
   for (const formula::Stated& m : s.measurands) {
     const std::string name = m.formula.short_name();
-    if (m.formula.text != name && std::ranges::find(s.quantities, name, &Symbol::name) != s.quantities.end())
+    if (m.formula.text == name || std::ranges::find(s.quantities, name, &Symbol::name) == s.quantities.end()) continue;
+    if (ambiguous(name))
       problems.add({m.formula.where, fmt::format("{}: '{}' is a quantity, too", m.formula.name, name),
-                    fmt::format("'{}' in a formula means the quantity", name),
-                    "rename one of them; as the true value of a measurand it needs method = \"virtual_experiment\""});
+                    fmt::format("'{}' in a formula means the quantity", name), "rename one of them"});
   }
 }
 
