@@ -215,8 +215,8 @@ private:
   }
 
   const std::vector<std::string>& same_;
-  bool by_framework_ =
-      true; ///< u and degrees of freedom are those of the budgets; else u of the samples, which has both
+  /// u and degrees of freedom are those of the budgets; else u is that of the samples, which has both.
+  bool by_framework_ = true;
   std::vector<const Budget*> budgets_; ///< by part; null: none
   std::vector<std::string> names_;     ///< by part: "a.h5: laser_z"
   WeightedMean out_;

@@ -218,7 +218,10 @@ void print_published(const Results& r, bool all) {
 void count_conformity(std::vector<ConformityResult>& all) {
   if (all.size() <= most_lines) return;
   const auto accepted = std::ranges::count(all, true, &ConformityResult::accepted);
-  const auto sure = [](const ConformityResult& c) { return std::fabs(c.conformance_probability - 0.5); };
+  const auto sure = [](const ConformityResult& c) {
+    const double p = c.conformance_probability;
+    return std::isnan(p) ? 0 : std::fabs(p - 0.5);
+  };
   std::ranges::stable_sort(all, {}, sure);
   std::cout << fmt::format(
       "conformity: {} of {} accepted, {} rejected; the {} of which least is sure (--all prints all):\n", accepted,

@@ -21,7 +21,7 @@ def independent(b):
 
 
 def law_accounts(b, output, verdict=""):
-    """accounts_for_variance() of the engine: the framework is validated, or the variances by the law of propagation and
+    """The framework is validated, or accounts_for_variance() of the engine: the variances by the law of propagation and
     by Monte Carlo differ by no more than APART and twice the Monte Carlo standard error."""
     u, law, se = output.standard_uncertainty, drawn_uncertainty(b), output.standard_uncertainty_se
     return verdict == "validated" or not math.isfinite(u) or (
