@@ -108,9 +108,9 @@ void correct_by_circle(Summary& s, const CircularSummary& c, double p) {
   const std::string unit = units::suffix(o.unit);
   s.statement =
       fmt::format("{}: mean direction {}{} with a standard deviation of {}{} on the circle; the shortest arc of {} "
-                  "goes from {} up to {}{}. {}.",
+                  "goes from {} up to {}{}.",
                   o.name, fixed(shown(c.mean_direction), d), unit, fixed(shown(c.standard_deviation), d), unit,
-                  coverage_text(p), fixed(shown(c.low), d), fixed(shown(c.high), d), unit, c.remark);
+                  coverage_text(p), fixed(shown(c.low), d), fixed(shown(c.high), d), unit);
   s.warning += (s.warning.empty() ? "" : "; ") + c.remark;
   s.certificate.clear();
   s.expanded_uncertainty = s.coverage_factor = nan;

@@ -36,6 +36,7 @@ def sections(r):
     targets = {}
     for t in r.targets:
         targets.setdefault(t.output, []).append(studies.target(t))
+    circles = {c.name: studies.circular(c, None) for c in r.circular if c.remark}  # where the line misleads
     for k, output in enumerate(varying(r)[:LISTED]):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
         full = k < OPEN
@@ -44,7 +45,7 @@ def sections(r):
         verdict = verdicts.get(output.name)
         accounted = not of.budget or explain.law_accounts(of.budget, output, verdict.verdict if verdict else "")
         yield types.SimpleNamespace(
-            summary=tables.summary_row(output), open=full, varies=varies, targets=targets.get(output.name, []),
+            summary=tables.summary_row(output), circle=circles.get(output.name), open=full, varies=varies, targets=targets.get(output.name, []),
             certificate=certificate.line(output, of.budget, verdict, r.coverage_probability),
             reduce=reduce.table(of.budget, u, of.sobol, of.shapley, of.given, accounted),
             distribution=picture(full and varies, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),

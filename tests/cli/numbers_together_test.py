@@ -15,7 +15,7 @@ from program import ROOT, gumshoe
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import read, workbook
+from gumshoe_report import page, read, workbook
 
 HEAD = 'schema = 1\n[model]\nname = "expression"\n'
 SPHERE = (  # centres of a sphere on a table that tilts about B and turns about C, made with noise of 3 um
@@ -139,6 +139,8 @@ y = { value = "0.1 mm", u = "1 mm" }
         self.assertIn("lie across the cut of the circle", output["warning"])
         self.assertRegex(text, r"th: mean direction (-?17\d|180)\.?\d* deg with a standard deviation of 5\.\d+ deg on the circle; the shortest arc of "
                                r"95 % goes from 16\d\.?\d* up to 19\d")
+        html = page.render(read.result(self.path / "s.h5"))
+        self.assertRegex(html, r'<span class="symbol">th</span> = −?(17\d|180)\.?\d*\S* on the circle')
         across, = json.loads(self.run_command("run", "s.toml", "--out", "s.h5", "--force", "--samples", 20000, "--format", "json"))
         self.assertAlmostEqual(across["circular"]["standard_deviation"], math.degrees(0.1), delta=0.2)
 
