@@ -179,7 +179,9 @@ std::set<std::string> print_outputs(const Results& r, const PrintOptions& option
 
 void print_comparisons(const Results& r, bool all) {
   if (r.comparisons.size() > most_lines && !all) {
-    const auto size = [](const ComparisonResult& c) { return std::fabs(c.normalised_error); };
+    const auto size = [](const ComparisonResult& c) { // without a U none
+      return std::isnan(c.normalised_error) ? -1 : std::fabs(c.normalised_error);
+    };
     const auto largest = std::ranges::max_element(r.comparisons, {}, size);
     std::cout << fmt::format("{} comparisons: |E_n| exceeds 1 in {}; the largest: {}, E_n = {:.2f}\n",
                              r.comparisons.size(),
@@ -191,6 +193,10 @@ void print_comparisons(const Results& r, bool all) {
     const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
     const int d = decimals_for(shown(c.expanded_uncertainty));
     const std::string unit = units::suffix(c.unit);
+    if (std::isnan(c.expanded_uncertainty)) {
+      std::cout << fmt::format("{} = {:.4g}{}, without U and E_n\n", c.name, shown(c.difference), unit);
+      continue;
+    }
     std::cout << fmt::format("{} = {}{}, U = {}{}, E_n = {:.2f}\n", c.name, fixed(shown(c.difference), d), unit,
                              fixed(shown(c.expanded_uncertainty), d), unit,
                              std::round(100 * c.normalised_error) / 100 + 0.0); // never -0

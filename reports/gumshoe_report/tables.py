@@ -215,7 +215,7 @@ def comparison_row(c):
     return types.SimpleNamespace(
         name=c.name, unit=unit_text(c.display_units), d=show(c.difference), u=show(c.standard_uncertainty),
         rss=show(c.root_sum_square), U=show(c.expanded_uncertainty), en=fixed(c.normalised_error, 2),
-        consistent=abs(c.normalised_error) <= 1)
+        consistent=abs(c.normalised_error) <= 1, judged=math.isfinite(c.normalised_error))
 
 
 def printed_row(p):

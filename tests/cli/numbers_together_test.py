@@ -113,7 +113,11 @@ readings = { file = "z.csv", column = "z (mm)", unit = "mm", labels = { rod = "r
 measurand = "h"
 between = "rod"
 '''
-        self.result(scenario)
+        text, _ = self.result(scenario)
+        self.assertRegex(text, r"h: A - B = -0\.01\d* mm, without U and E_n\n")
+        html = page.render(read.result(self.path / "s.h5"))
+        self.assertIn("<td>no U</td>", html)
+        self.assertNotIn("not consistent", html)
         row, = read.result(self.path / "s.h5").comparisons
         self.assertTrue(math.isnan(row.standard_uncertainty) and math.isnan(row.expanded_uncertainty))
         self.assertTrue(math.isnan(row.normalised_error))
