@@ -220,18 +220,17 @@ void print_published(const Results& r, bool all) {
   }
 }
 
-/// Of many decisions one line, and those of which least is sure.
-void count_conformity(std::vector<ConformityResult>& all) {
+/// If there are many decisions, prints how they came out, and keeps those that are least certain.
+void keep_least_certain(std::vector<ConformityResult>& all) {
   if (all.size() <= most_lines) return;
   const auto accepted = std::ranges::count(all, true, &ConformityResult::accepted);
-  const auto sure = [](const ConformityResult& c) {
+  const auto certainty = [](const ConformityResult& c) {
     const double p = c.conformance_probability;
     return std::isnan(p) ? 0 : std::fabs(p - 0.5);
   };
-  std::ranges::stable_sort(all, {}, sure);
-  std::cout << fmt::format(
-      "conformity: {} of {} accepted, {} rejected; the {} of which least is sure (--all prints all):\n", accepted,
-      all.size(), all.size() - static_cast<std::size_t>(accepted), most_lines);
+  std::ranges::stable_sort(all, {}, certainty);
+  std::cout << fmt::format("conformity: {} of {} accepted, {} rejected; the {} least certain (--all prints all):\n",
+                           accepted, all.size(), all.size() - static_cast<std::size_t>(accepted), most_lines);
   all.resize(most_lines);
 }
 
@@ -250,7 +249,7 @@ void print_text(const Results& r, const std::string& file, const PrintOptions& o
   print_validations(r);
   Results in_full = r;
   keep_outputs(in_full, [&](const auto& output) { return printed.contains(output.name); });
-  if (!options.all) count_conformity(in_full.conformity);
+  if (!options.all) keep_least_certain(in_full.conformity);
   print_studies(in_full, std::cout);
   print_comparisons(r, options.all);
   print_published(r, options.all);

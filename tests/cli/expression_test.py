@@ -110,35 +110,6 @@ coverage_probability = 0.99
         self.assertIn("R = ratio * cos(phi)", run.stdout)
         self.assertIn("ratio = V / I", run.stdout)
 
-    def test_explain_prints_decision_rules_and_costs(self):
-        text = '''schema = 1
-[model]
-name = "expression"
-[model.measurands]
-y = "x + 0"
-[quantities.x]
-value = "10 mm"
-u = "3 um"
-[[analysis.conformity]]
-measurand = "y"
-upper = "10.01 mm"
-guard_factor = 0.5
-process = { value = "10 mm", u = "4 um" }
-[[analysis.conformity]]
-measurand = "y"
-upper = "10.01 mm"
-rule = "ilac_g8"
-[[analysis.targets]]
-measurand = "y"
-U = "5 um"
-costs = { x = 3 }
-'''
-        run = gumshoe("check", "--explain", self.scenario(text))
-        self.assertIn("conformity of y, SI limits [none, 0.01001], guard band 0.5 U, process 0.01 m (10 mm) + normal (mean 0 m, u 4e-06 m)",
-                      run.stdout)
-        self.assertIn("conformity of y, SI limits [none, 0.01001], rule ilac_g8\n", run.stdout)
-        self.assertIn("target: U of y at most 5e-06 SI, cost of x 3\n", run.stdout)
-
     def test_a_measurand_with_the_name_of_a_quantity(self):
         """Other formulas mean the quantity by it; only the quantity itself may be a measurand of its name."""
         text = H2.replace("Z = \"ratio\"", "V = \"2 * V\"")

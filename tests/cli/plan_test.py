@@ -197,8 +197,7 @@ class Plan(InFolder):
         rows = [",".join((*cells[:3], cells[3] or "0", cells[4])) for cells in planned]
         first = [line + ",0" for line in DATA.splitlines()[1:]]
         (self.folder / "d.csv").write_text("\n".join([rows[0], *first, *rows[1:]]) + "\n")
-        text = TEXT.split("[stated_effects.scale]")[0].replace('setup = "setup" }', 'setup = "setup", repeat = "repeat" }')
-        self.file.write_text(text)
+        self.file.write_text(TEXT.split("[stated_effects.scale]")[0].replace('setup = "setup" }', 'setup = "setup", repeat = "repeat" }'))
         fit = gumshoe("estimate", self.file, "--format", "json", "--scenario-out", self.folder / "fit.toml")
         self.assertEqual(fit.returncode, 0, fit.stderr)
         self.assertAlmostEqual(json.loads(fit.stdout)["parameters"]["a"]["standard_uncertainty"], 0.25, places=6)

@@ -1,4 +1,4 @@
-"""What `gumshoe new` and `gumshoe trace` make of a tool setter's log: several tools, twice a day.
+"""What `gumshoe new` and `gumshoe trace` make of logs with groups: tools of a tool setter, twice a day, and long blocks.
 
 usage: trace_log_tools_test.py path/to/gumshoe [unittest options]
 """
@@ -30,7 +30,7 @@ class Tools(TracedLog):
 
     def test_two_tools_that_were_hit(self):
         """Tools 2 and 5 are 15 um shorter from day 5 on: with a step of either alone the other still looks like scatter
-        by day and tool. Steps must be known to a few u, and held-out days predicted to the noise of 1 um."""
+        by day and tool. Held-out days must be predicted to the noise of 1 um."""
         found = 0
         for seed in range(8):
             verdict = self.tools(seed, lambda tool, day: -15.0 if tool in (1, 4) and day >= 4 else 0.0)

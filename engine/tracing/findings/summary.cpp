@@ -112,8 +112,9 @@ std::string bad_readings(const Trace& t) {
 bool outliers_enlarge(const Trace& t) {
   double squares = 0;
   for (const Outlier& o : t.outliers) squares += o.residual * o.residual;
-  const double readings = static_cast<double>(std::max<std::size_t>(1, t.rows.size()));
-  return !t.outliers.empty() && t.rms.before * t.rms.before - squares / readings <= t.rms.noise_high * t.rms.noise_high;
+  const auto fitted = static_cast<double>(std::ranges::count(t.rows, false, &Row::held_out));
+  const double without = t.rms.before * t.rms.before - squares / std::max(1.0, fitted);
+  return !t.outliers.empty() && without <= t.rms.noise_high * t.rms.noise_high;
 }
 
 /// Nothing was found: are the residuals as small as noise makes them?
