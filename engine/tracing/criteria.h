@@ -137,6 +137,8 @@ struct Criteria {
   double uneven_step = 0.02;
   double shown_wave = 3;  ///< amplitude in u from which a wave per turn is told
   double own_wave = 0.5;  ///< share of a wave that the declared model must leave
+  /// Places tried, by cost, where a part may have been changed or changed back, before those between the best two.
+  std::size_t most_ends = 30;
   double drift_forms = 4; ///< independent forms of a drift that levels off, between the shortest and the longest
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;

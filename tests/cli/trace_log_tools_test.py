@@ -42,6 +42,15 @@ class Tools(TracedLog):
             self.assertLess(verdict["rms"]["holdout_after"], 1.6)
         self.assertGreaterEqual(found, 6)
 
+    def test_a_tool_changed_and_changed_back(self):
+        """Tool 2 is 12 um longer on the days 3 and 4: alone it looks like scatter by day and tool, too."""
+        found = 0
+        for seed in range(8):
+            verdict = self.tools(50 + seed, lambda tool, day: 12.0 if tool == 1 and day in (2, 3) else 0.0)
+            told = [f.get("described_by", "") for f in verdict["findings"] if f["depends_on"] != ["tool"]]  # nobody declared offsets
+            found += len(told) == 1 and told[0].startswith("while:time with tool T2 from reading ")
+        self.assertGreaterEqual(found, 6)
+
     def test_clampings_that_scatter_do(self):
         """Each tool is clamped anew each day, by 3 um: no few steps stand for that."""
         for seed in range(6):

@@ -8,6 +8,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import sys
 import tempfile
 import unittest
@@ -116,16 +117,17 @@ class BetweenSessions(unittest.TestCase):
 
 
 class OneTool(unittest.TestCase):
-    """Tool T3 was hit between two shifts: it alone is off from then on. Noise of 0.7 um; the last two of eight shifts are held out."""
+    """Tool T3 was hit between two shifts: it alone is off from then on, or until it was changed. Noise of 0.7 um; the last quarter of
+    the shifts is held out."""
 
-    def traced(self, seed, size, after, *options):
+    def traced(self, seed, size, after, *options, until=99, shifts=8):
         draw = random.Random(seed)
         rows, t = ["shift,tool,t,d"], 0
-        for shift in range(1, 9):
+        for shift in range(1, shifts + 1):
             t += 300
             for tool in draw.sample(range(1, 6), 5):
                 t += 3
-                rows.append(f"{shift},T{tool},{t},{draw.gauss(0, 0.7) + (size if tool == 3 and shift > after else 0):.2f}")
+                rows.append(f"{shift},T{tool},{t},{draw.gauss(0, 0.7) + (size if tool == 3 and after < shift <= until else 0):.2f}")
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "r.csv").write_text("\n".join(rows) + "\n")
@@ -138,6 +140,17 @@ class OneTool(unittest.TestCase):
             verdict = self.traced(seed, 6, after=3)
             named += [f["described_by"].startswith("step:t with tool T3 after reading 1") for f in verdict["findings"]] == [True]
             self.assertEqual(self.traced(seed, 6, 3, "--loop", "3")["rounds"][-1]["added"], [], seed)
+        self.assertGreaterEqual(named, 5)
+
+    def test_changed_and_changed_back(self):
+        """Off in the shifts 6 to 8 of 16, of which 12 are fitted: 55 stretches of each of five tools, of which the p-value pays for all."""
+        named = 0
+        for seed in range(6):
+            verdict = self.traced(seed, 6, after=5, until=8, shifts=16)
+            if [re.sub(r"\d\d", "#", f["described_by"]) for f in verdict["findings"]] == ["while:t with tool T3 from reading # to reading #"]:
+                first, last = map(int, re.findall(r"reading (\d+)", verdict["findings"][0]["described_by"]))
+                named += 25 < first <= 30 and 35 < last <= 40  # shifts of five readings
+                self.assertRegex(verdict["plain"][0], r"^Something was different with tool T3 from reading \d+ to reading \d+:")
         self.assertGreaterEqual(named, 5)
 
     def test_a_tool_that_stays_is_none(self):

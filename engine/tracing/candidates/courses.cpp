@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -30,15 +31,17 @@ struct Members {
   bool holds(std::size_t reading) const { return !label || label->group[reading] == group; }
 };
 
-/// From this place in the sequence on, of all readings or those of one part.
+/// From this place in the sequence on, of all readings or those of one part; or up to another place, which it is
+/// without.
 struct Instant {
   Index from = 0;
   Members part = {};
+  Index until = std::numeric_limits<Index>::max();
   /// A reading is of one part of a label.
   bool operator==(const Instant& other) const { return from == other.from && part.label == other.part.label; }
 };
 
-/// The step between two successive readings of one indication.
+/// The step between two successive readings of one indication, or two that cancel.
 class Steps {
 public:
   Steps(const Observations& o, std::size_t indication) : o_(o), indication_(index(indication)) {}
@@ -47,8 +50,8 @@ public:
     const Index n = index(o_.readings), k = index(o_.indications);
     Matrix out = Matrix::Zero(n * k, index(instants.size()));
     for (Index j = 0; j < out.cols(); ++j) {
-      const auto& [from, part] = instants[static_cast<std::size_t>(j)];
-      for (Index r = from; r < n; ++r)
+      const auto& [from, part, until] = instants[static_cast<std::size_t>(j)];
+      for (Index r = from; r < std::min(n, until); ++r)
         if (part.holds(o_.sequence[index(r)])) out(r * k + indication_, j) = 1;
     }
     return out;
@@ -72,14 +75,20 @@ private:
   Index indication_;
 };
 
+/// Places of the fitted readings in the sequence, of all or of one part.
+std::vector<Index> fitted_places(const Observations& o, const std::vector<Index>& rows, const Members& part) {
+  std::vector<Index> out;
+  for (const Index row : rows)
+    if (const Index place = row / index(o.indications);
+        part.holds(o.sequence[index(place)]) && (out.empty() || out.back() != place))
+      out.push_back(place);
+  return out;
+}
+
 /// Places in the sequence where a step may begin, with a few fitted readings before and after; of a part, whose
 /// readings seldom follow one another, with two of its own.
 std::vector<Instant> instants(const Observations& o, const std::vector<Index>& rows, const Members& part = {}) {
-  std::vector<Index> fitted;
-  for (const Index row : rows)
-    if (const Index place = row / index(o.indications);
-        part.holds(o.sequence[index(place)]) && (fitted.empty() || fitted.back() != place))
-      fitted.push_back(place);
+  const std::vector<Index> fitted = fitted_places(o, rows, part);
   const std::size_t few = part.label ? criteria.least_repeats : static_cast<std::size_t>(criteria.few_readings) + 1;
   std::vector<Instant> out;
   for (std::size_t i = few; i + few <= fitted.size(); ++i) out.push_back({fitted[i], part});
@@ -102,6 +111,88 @@ std::vector<Instant> beginnings_of_blocks(const Observations& o, const std::vect
         o.blocks.group[o.sequence[index(at.from)]] != o.blocks.group[o.sequence[index(at.from - 1)]])
       out.push_back(at);
   return out;
+}
+
+/// What one part of a label may have been for a while: it was changed, or moved, and put back. Stretches of its fitted
+/// readings, at least two, with one before and one after; where there are blocks they begin and end between blocks.
+class Whiles {
+public:
+  Whiles(const Observations& o, const std::vector<Index>& rows, const Grouping& label) {
+    for (std::size_t g = 0; g < label.groups.size(); ++g) {
+      ends_.push_back({{&label, g}, {}});
+      const std::vector<Index> places = fitted_places(o, rows, ends_.back().part);
+      const auto block = [&](std::size_t i) { return o.blocks.group[o.sequence[index(places[i])]]; };
+      for (std::size_t i = 1; i < places.size(); ++i)
+        if (o.blocks.group.empty() || block(i) != block(i - 1)) ends_.back().at.push_back({i, places[i]});
+    }
+  }
+
+  /// All there are, of which the best counts as the best of so many.
+  std::size_t number() const {
+    std::size_t out = 0;
+    for (const Ends& e : ends_)
+      for (std::size_t i = 0; i < e.at.size(); ++i)
+        for (std::size_t j = i + 1; j < e.at.size(); ++j) out += e.is_one(i, j);
+    return out;
+  }
+
+  /// The one that explains most: of a grid of ends, then of all near its ends, one end after the other.
+  std::optional<Instant> best(const Steps& steps, const Gain& gain) const {
+    std::vector<Instant> grid;
+    for (const Ends& e : ends_)
+      for (std::size_t i = 0; i < e.at.size(); i += e.stride())
+        for (std::size_t j = i + e.stride(); j < e.at.size(); j += e.stride())
+          if (e.is_one(i, j)) grid.push_back(e.between(i, j));
+    if (grid.empty()) return std::nullopt;
+    Instant found = steps.best(grid, gain);
+    const Ends& own = ends_[found.part.group];
+    for (int pass = 0; own.stride() > 1 && pass < 2; ++pass) {
+      found = steps.best(own.near(found, own.stride(), 0), gain);
+      found = steps.best(own.near(found, 0, own.stride()), gain);
+    }
+    return found;
+  }
+
+private:
+  struct End {
+    std::size_t before; ///< fitted readings of the part before it
+    Index place;
+  };
+  /// Those of one part.
+  struct Ends {
+    Members part;
+    std::vector<End> at;
+
+    std::size_t stride() const {
+      return std::max<std::size_t>(1, (at.size() + criteria.most_ends - 1) / criteria.most_ends);
+    }
+    bool is_one(std::size_t i, std::size_t j) const { return at[j].before - at[i].before >= criteria.least_repeats; }
+    Instant between(std::size_t i, std::size_t j) const { return {at[i].place, part, at[j].place}; }
+
+    /// Those whose ends lie so near to this one's, itself among them.
+    std::vector<Instant> near(const Instant& one, std::size_t from, std::size_t until) const {
+      const auto around = [&](Index place, std::size_t reach) {
+        const auto i = static_cast<std::size_t>(std::ranges::find(at, place, &End::place) - at.begin());
+        return std::pair(i - std::min(i, reach), std::min(i + reach, at.size() - 1));
+      };
+      const auto [first, last] = around(one.from, from);
+      const auto [least, most] = around(one.until, until);
+      std::vector<Instant> out;
+      for (std::size_t i = first; i <= last; ++i)
+        for (std::size_t j = std::max(least, i + 1); j <= most; ++j)
+          if (is_one(i, j)) out.push_back(between(i, j));
+      return out;
+    }
+  };
+
+  std::vector<Ends> ends_;
+};
+
+/// The last reading of a part before a place, counted from 1.
+std::size_t last_before(const Observations& o, Index place, const Members& part) {
+  while (!part.holds(o.sequence[index(--place)]))
+    ;
+  return o.sequence[index(place)] + 1;
 }
 
 /// Time since the first reading, over the range, in the order of measurement.
@@ -262,13 +353,16 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       out.back().searched = criteria.drift_forms;
       if (c.comes_back) continue; // what happened at one instant, happened once
       const Steps steps(o, i);
-      const auto step = [&](const Instant& at, const std::string& of, std::size_t among) {
-        Index before = at.from - 1;
-        while (!at.part.holds(o.sequence[index(before)])) --before;
-        out.push_back(shape(o, c, i,
-                            fmt::format("step:{}{} after reading {}", c.name, of, o.sequence[index(before)] + 1),
-                            steps.columns({&at, 1})));
+      const auto add = [&](const std::string& name, const Instant& at, std::size_t among) {
+        out.push_back(shape(o, c, i, name, steps.columns({&at, 1})));
         out.back().searched = static_cast<double>(among);
+      };
+      const auto step = [&](const Instant& at, const std::string& of, std::size_t among) {
+        add(fmt::format("step:{}{} after reading {}", c.name, of, last_before(o, at.from, at.part)), at, among);
+      };
+      const auto of_part = [&](const Grouping& label, std::size_t group) {
+        out.back().depends_on.push_back(label.name);
+        out.back().amplitudes[0].labels = {{label.name, label.values[group][0]}};
       };
       const Instant from = steps.best(places, gain);
       step(from, "", places.size());
@@ -281,8 +375,15 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
         if (of_parts.empty()) continue;
         const Instant at = steps.best(of_parts, gain);
         step(at, " with " + label->groups[at.part.group], of_parts.size());
-        out.back().depends_on.push_back(label->name);
-        out.back().amplitudes[0].labels = {{label->name, label->values[at.part.group][0]}};
+        of_part(*label, at.part.group);
+        const Whiles whiles(o, rows, *label);
+        if (const auto a_while = whiles.best(steps, gain)) {
+          const auto& [from, part, until] = *a_while;
+          add(fmt::format("while:{} with {} from reading {} to reading {}", c.name, label->groups[part.group],
+                          o.sequence[index(from)] + 1, last_before(o, until, part)),
+              *a_while, whiles.number());
+          of_part(*label, part.group);
+        }
       }
       const double range = c.levels.back() - c.levels.front();
       const auto place = [&](const char* kind, double (*profile)(double), double length_of_width) {

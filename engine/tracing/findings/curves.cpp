@@ -347,7 +347,9 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
       finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
-  } else if (const std::string step = covariates.empty() || shape.name.starts_with("step:") ? make.step() : "";
+  } else if (const std::string step =
+                 covariates.empty() || shape.name.starts_with("step:") || shape.name.starts_with("while:") ? make.step()
+                                                                                                           : "";
              !step.empty()) {
     finding.remarks.push_back("it differs by " + step);
   } else if (shape.rare() && covariates.size() == 1) {

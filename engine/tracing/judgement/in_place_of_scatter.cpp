@@ -21,8 +21,8 @@ bool one_value_each(const Grouping& label, const Grouping& group) {
   return true;
 }
 
-/// One group that differs, or one pass of it, or all groups of one operator; a straight line in what was recorded, a
-/// step, a pulse, a drift or any course in time: shapes that scatter may look like.
+/// One group that differs, or one pass of it, or all groups of one operator, always or for a while; a straight line in
+/// what was recorded, a step, a pulse, a drift or any course in time: shapes that scatter may look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
   const std::string name = without_indication(a.name, o);
   const auto is_of = [&](const Grouping& label) {
@@ -30,9 +30,9 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
     return std::ranges::find(label.groups, name.substr(5)) != label.groups.end() ||
            (pass.size() == 1 && pass[0].first == label.name);
   };
-  if (name.starts_with("step:") && std::ranges::any_of(o.labels, [&](const Grouping& label) {
-        return is_of(label) && one_value_each(label, group);
-      }))
+  if ((name.starts_with("step:") || name.starts_with("while:")) &&
+      std::ranges::any_of(o.labels,
+                          [&](const Grouping& label) { return is_of(label) && one_value_each(label, group); }))
     return true;
   if (a.physical() || a.depends_on.size() != 1) return false;
   const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);

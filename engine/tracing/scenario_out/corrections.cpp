@@ -105,7 +105,7 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
   const auto& levels = keys[0]->levels;
   if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) {
     const auto line = line_of(rows);
-    const bool step = out.shape.starts_with("step:");
+    const bool step = out.shape.starts_with("step:") || out.shape.starts_with("while:");
     if (!line && !step) return std::nullopt;
     const double first = step ? rows.begin()->second : (*line)(levels.front()),
                  last = step ? rows.rbegin()->second : (*line)(levels.back());
