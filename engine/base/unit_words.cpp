@@ -207,6 +207,12 @@ std::string instead_of(const std::string& unit) {
   if (std::smatch found; std::regex_search(unit, found, remark))
     return fmt::format("write '{}' and say elsewhere what is meant by ({}); a product is '{}.{}'", found[1].str(),
                        found[2].str(), found[1].str(), found[2].str());
+  // "100 mm +- 1 um"
+  static const std::regex give_or_take(R"((\+/?-|\xc2\xb1)\s*(.*))");
+  if (std::smatch found; std::regex_search(unit, found, give_or_take))
+    return fmt::format("state what is known of the value by keys of its own: u = \"{0}\" if that is the standard "
+                       "uncertainty, half_width = \"{0}\" and distribution if these are limits",
+                       found[2].str());
   if (has_zeroth_power(unit)) return "a unit to the power of zero is a plain number: leave it out";
   std::string out;
   each_name(

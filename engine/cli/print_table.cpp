@@ -38,8 +38,7 @@ void add_cells(CsvLine& line, const Fields<Row>& fields, const Row& row, const p
       std::visit(
           [&]<class T>(const T& value) {
             if constexpr (std::is_same_v<T, double>)
-              cell = fmt::format("{:.{}g}", converted(value, field.unit, unit, of_output),
-                                 field.unit.in == In::point ? 15 : 6);
+              cell = fmt::format("{:.15g}", converted(value, field.unit, unit, of_output));
             else if constexpr (std::is_same_v<T, std::string>)
               cell = csv_quoted(value);
             else

@@ -7,6 +7,7 @@
 
 #include "formula/interpreter.h"
 #include "formula/operation.h"
+#include "scenario/quantity.h"
 
 namespace gumshoe::scenario {
 
@@ -83,9 +84,7 @@ private:
       if (table_ && table_->has(std::string(t.name)))
         if (const auto v = table_->measure(std::string(t.name), {std::string(t.si_unit), units::Kind::point})) {
           constants_.back() = *v;
-          if (!t.limits.contain(*v))
-            problems_.add(*table_->find(std::string(t.name)),
-                          fmt::format("choose.time.{}: the value is outside its limits", t.name));
+          check_limits(*v, t, *table_->find(std::string(t.name)), fmt::format("choose.time.{}", t.name), problems_);
         }
       symbols_.push_back({std::string(t.name), std::string(t.unit), std::string(t.si_unit), ""});
     }

@@ -228,7 +228,18 @@ private:
     return {};
   }
 
-  /// Every name in `same` is in the budget, and in another result or in the scenario as well.
+  /// Another output of the same file that has this error in its budget, and does not name it; none: null.
+  const Draw* silent_about(const Draw& a, const std::string& quantity) const {
+    const auto silent = std::ranges::find_if(draws_, [&](const Draw& d) {
+      return d.output && d.stated != a.stated && d.stated->earlier->file == a.stated->earlier->file &&
+             !names(d, quantity) &&
+             std::ranges::find(d.output->shares, quantity, &Share::quantity) != d.output->shares.end();
+    });
+    return silent == draws_.end() ? nullptr : &*silent;
+  }
+
+  /// Every name in `same` is in the budget, and in another result or in the scenario as well; and all outputs of one
+  /// file that have the error name it.
   void check_same(const Draw& a) {
     std::set<std::string> known;
     for (const Share& s : a.output->shares) known.insert(s.quantity);
@@ -245,6 +256,12 @@ private:
         context_.problems.add(place(a), fmt::format("{}: same: nothing else here has '{}'", a.name, name),
                               "an error is shared by two",
                               "name it in same of the other result too, or state it as a quantity");
+      else if (const Draw* other = silent_about(a, name))
+        context_.problems.add(
+            place(*other),
+            fmt::format("{} is of the same run as {}, and '{}' is in the budget of both", other->name, a.name, name),
+            "one error cannot be shared by one of them alone",
+            fmt::format("add same = [\"{}\"] to {}", name, other->name));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scenario/conditions.h"
+#include "scenario/quantity.h"
 
 namespace gumshoe::scenario {
 
@@ -36,10 +37,7 @@ std::optional<double> KnobReader::value(const Node& node, const std::string& pat
   }
   const auto x = read_measure(node, path, {knob.si_unit}, problems_);
   const QuantityCard* card = knob.kind == Kind::quantity ? card_of(knob) : nullptr;
-  if (x && card && !card->limits.contain(*x)) {
-    problems_.add(node, fmt::format("{}: the value is outside the limits of {}", path, knob.name));
-    return std::nullopt;
-  }
+  if (x && card && !check_limits(*x, *card, node, path, problems_)) return std::nullopt;
   return x;
 }
 

@@ -263,6 +263,18 @@ std::string limit_text(const Limits& limits, bool low, const QuantityCard& card)
 
 } // namespace
 
+bool check_limits(double value, const QuantityCard& card, const Node& node, const std::string& path,
+                  Problems& problems) {
+  const Limits& limits = card.limits;
+  if (limits.contain(value)) return true;
+  const bool low = limits.low_open ? value <= limits.low : value < limits.low;
+  problems.add(node, fmt::format("{}: {} is impossible", path, shown(value, card)), limit_text(limits, low, card),
+               card.si_unit == "K" && limits.contain(value - units::to_si(0, "degC", "K"))
+                   ? "state a difference of temperatures in K: 2 degC are 275.15 K"
+                   : "");
+  return false;
+}
+
 void check_limits(const Entry& entry, const QuantityCard& card, const Node& node, const std::string& path,
                   Problems& problems) {
   double estimate = entry.value, least = entry.value, most = entry.value;
@@ -271,15 +283,8 @@ void check_limits(const Entry& entry, const QuantityCard& card, const Node& node
     least += c.distribution.support_low();
     most += c.distribution.support_high();
   }
+  if (!check_limits(estimate, card, node, path, problems)) return;
   const Limits& limits = card.limits;
-  if (!limits.contain(estimate)) {
-    const bool low = limits.low_open ? estimate <= limits.low : estimate < limits.low;
-    problems.add(node, fmt::format("{}: {} is impossible", path, shown(estimate, card)), limit_text(limits, low, card),
-                 card.si_unit == "K" && limits.contain(estimate - units::to_si(0, "degC", "K"))
-                     ? "state a difference of temperatures in K: 2 degC are 275.15 K"
-                     : "");
-    return;
-  }
   // Ends of a sum carry rounding; an open limit is never drawn. Unbounded distributions are the model's to refuse.
   const double rounding = 1e-12 * (std::abs(estimate) + std::abs(most - least));
   const bool low = std::isfinite(least) && least < limits.low - rounding;

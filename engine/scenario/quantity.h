@@ -24,6 +24,10 @@ quantities::InputQuantity read_quantity(const Node& node, const std::string& pat
 std::vector<quantities::Component> read_components(Table& table, const std::string& si_unit, bool value_given,
                                                    double& value, Context& context);
 
+/// Refuses a value outside the card's limits, and says which it is outside.
+bool check_limits(double value, const QuantityCard& card, const Node& node, const std::string& path,
+                  Problems& problems);
+
 /// Refuses estimates outside the limits, and bounded distributions that reach beyond them.
 void check_limits(const quantities::Entry& entry, const QuantityCard& card, const Node& node, const std::string& path,
                   Problems& problems);

@@ -81,6 +81,8 @@ struct Criteria {
   std::size_t most_cells_of_noise = 200;
   /// 2 ln L by which the scatter about the cells' means must speak against more correlation: three standard deviations.
   double too_much_structure = 9;
+  /// p-value below which means differ by more than their repeats explain, as it is said of repeats and declared noise.
+  double repeats_share_p = 1e-3;
   std::size_t readings_of_block = 6; ///< indications of a block that show its scatter
   /// What repeats depends on a factor if, without it, this many standard deviations more of squares are left.
   double factor_counts = 3;

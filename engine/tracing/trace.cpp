@@ -44,7 +44,7 @@ void state_what_means_hide(const Observations& o, const scenario::Scenario& s, T
   if (rows == s.readings.size() || recorded.empty()) return;
   out.statements.push_back(
       fmt::format("{} readings of equal labels and conditions are judged as {}, their means, whatever {} "
-                  "did meanwhile; repeats = \"apart\" keeps them apart",
+                  "did meanwhile; repeats = \"apart\" in readings keeps them apart",
                   rows, s.readings.size(), fmt::join(recorded, " and ")));
 }
 

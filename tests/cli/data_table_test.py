@@ -249,7 +249,7 @@ readings = { file = "log.csv", column = "y", unit = "um", labels = { day = "day"
 blocks = "day"
 columns.t = { column = "t", unit = "s" }
 """
-        said = "120 readings of equal labels and conditions are judged as 6, their means, whatever t did meanwhile; repeats = \"apart\" keeps them apart"
+        said = "120 readings of equal labels and conditions are judged as 6, their means, whatever t did meanwhile; repeats = \"apart\" in readings keeps them apart"
         self.file.write_text(text)
         self.assertIn(said, gumshoe("trace", self.file, cwd=self.folder).stdout)
         self.file.write_text(text.replace('"um", labels', '"um", repeats = "apart", labels'))

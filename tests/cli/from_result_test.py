@@ -202,6 +202,8 @@ class FromResult(Lengths):
         self.refused("two", 'x = { from = "a.h5:y", u = "1 um" }', "the result states the uncertainty")
         self.refused("same", 'x = { from = "a.h5:y", same = ["referense"] }', "Did you mean 'reference'?")
         self.refused("alone", 'x = { from = "a.h5:y", same = ["reference"] }', "nothing else here has 'reference'")
+        self.refused("one_of_two", 'x = { from = "pair.h5:s", same = ["p"] }\nw = { from = "pair.h5:d" }\np = { value = "1", u = "0.2" }',
+                     ":8:5: error: w is of the same run as x, and 'p' is in the budget of both", 'Add same = ["p"] to w')
         self.refused("no_from", 'x = { value = "1 mm", u = "1 um", same = ["a"] }', "there is no result")
         (self.folder / "text.h5").write_text("no result")
         shard, trace = self.folder / "shard.h5", self.folder / "trace.h5"

@@ -186,13 +186,13 @@ CHECKED = [
     (CHOOSE, CHOOSE[CHOOSE.index("feed = {"):CHOOSE.index("[choose.time]")], "", "nothing to choose from"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "it differs between the readings"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "the readings are listed"),
-    (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "the value is outside the limits of rod_radius"),
+    (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "rod_radius: -5 mm is impossible (must be above 0 mm)"),
     (ROD_CHOICE.replace("resolution", 'rows = [{ rod = "a", repeats = 1 }, { rod = "b", repeats = 1 }]\nresolution'), 'rod_radius = ["4.9 mm"]',
      'rod_length = ["5 mm"]\n[quantities.rod_length.by.rod]\na = "4 mm"\nb = "5 mm"', "its value differs between the readings"),
     (FEED_SPEED, 'measurand       = "effective_length"', 'measurand = "phase"', "does not yield 'phase'"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = { spread = ["10 mm/min", "20 mm/min"], readings = 1 }', "it is spread over the readings"),
     (CHOOSE, 'way = "5 mm"', 'way = "nan mm"', "not finite"),
-    (FEED_SPEED, 'orientation_time = "1 s"', 'orientation_time = "-1 s"', "the value is outside its limits"),
+    (FEED_SPEED, 'orientation_time = "1 s"', 'orientation_time = "-1 s"', "choose.time.orientation_time: -1 s is impossible (must be at least 0 s)"),
 ]
 
 

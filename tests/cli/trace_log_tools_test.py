@@ -77,5 +77,43 @@ class LongBlocks(TracedLog):
         self.assertEqual(scatter["depends_on"], ["block"])
 
 
+SETTER = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+d = "length"
+[quantities]
+length = { estimated = true, value = "0 um" }
+[indications.d]
+readings = { file = "log.csv", column = "d", unit = "um", labels = { day = "day", tool = "tool" }%s }
+[trace]
+blocks = "day"
+draws = 199
+"""
+
+
+class RepeatsTogether(TracedLog):
+    def traced(self, of_clamping, more=""):
+        """Three repeats of each of five tools on twelve days; noise of 0.7 um."""
+        noise = random.Random(3)
+        rows = ["day,tool,d"]
+        for day in range(12):
+            for tool in range(5):
+                off = noise.gauss(0, of_clamping)
+                rows += [f"{day},T{tool},{off + noise.gauss(0, 0.7):.3f}" for _ in range(3)]
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        (self.folder / "log.toml").write_text(SETTER % more)
+        return self.verdict("log.toml")
+
+    def test_repeats_that_are_off_together(self):
+        """Clampings scatter by 2 um: means say so, but not of what, and a reading has not the noise of three times their mean square."""
+        said, = (s for s in self.traced(2)["statements"] if "repeats scatter" in s)
+        self.assertRegex(said, r"^repeats scatter by only 0\.[67]\d* um about their means, which differ as if a reading had [234](\.\d+)? um")
+        self.assertEqual([f["depends_on"] for f in self.traced(2, ', repeats = "apart"')["findings"]], [["day", "tool"]])
+
+    def test_repeats_alone(self):
+        self.assertFalse([s for s in self.traced(0)["statements"] if "repeats scatter" in s])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -75,6 +75,13 @@ TEST_CASE("an unknown unit stands at its own place", "[scenario][hints]") {
              Contains("s.toml:7:11: error: quantities.a: 'mmm' is not a unit"));
 }
 
+TEST_CASE("a value give or take something is told which keys say so", "[scenario][hints]") {
+  for (const char* text : {"100 mm +- 2 um", "100 mm +/- 2 um", "100 mm \u00b1 2 um", "100\u00b12 um"})
+    CHECK_THAT(said(formula("\"a\"") + "[quantities]\na = \"" + text + "\"\n"),
+               Contains("s.toml:7:5: error: quantities.a: ") && Contains("u = \"2 um\" if that is the standard") &&
+                   Contains("half_width = \"2 um\""));
+}
+
 TEST_CASE("a bad cell is told with its column", "[scenario][hints]") {
   const std::string readings =
       head + "[indications.spindle_z]\nreadings = { file = \"r.csv\", column = \"x_um\", unit = \"um\"";

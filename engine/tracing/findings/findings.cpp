@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -132,6 +133,27 @@ void remark_on_shapes(const TraceContext& c, const JointFit& fit, const JointFit
 
 } // namespace
 
+namespace {
+
+/// Means that differ by more than their repeats explain: what is read together is off together.
+void state_what_repeats_share(const TraceContext& c, const JointFit& fit, Trace& out) {
+  namespace bm = boost::math;
+  const ReadoutScatter& repeats = c.observations.of_readouts;
+  const double freedom = static_cast<double>(c.fitter.rows().size()) -
+                         static_cast<double>(independent(fit.design, c.fitter.rows()).size());
+  if (out.noise.declared || repeats.freedom < criteria.least_pure_freedom || !(repeats.s[0] > 0) || freedom < 1) return;
+  const double ratio = std::pow(out.noise.scale / repeats.s[0], 2);
+  if (!(bm::cdf(bm::complement(bm::fisher_f(freedom, repeats.freedom), ratio)) < criteria.repeats_share_p)) return;
+  const VariableCard& card = c.experiment.model().card->indications[0];
+  const auto shown = [&](double x) { return shown_size(x, std::string(card.unit), std::string(card.si_unit)); };
+  out.statements.push_back(fmt::format(
+      "repeats scatter by only {} about their means, which differ as if a reading had {}: what is read together is off "
+      "together; repeats = \"apart\" in readings lets that be traced",
+      shown(repeats.s[0]), shown(out.noise.scale)));
+}
+
+} // namespace
+
 void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
   const JointFit& fit = s.found;
   Noise& noise = out.noise;
@@ -154,6 +176,7 @@ void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
     out.statements.push_back(fmt::format(
         "the noise of each reading resembles that of the one before (correlation about {:.1f}); this is allowed for",
         noise.correlation));
+  state_what_repeats_share(c, fit, out);
 }
 
 /// Whether the scenario states no value of the quantity that a term shifts.
