@@ -1,10 +1,12 @@
 #include "scenario/readouts_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "scenario/file_pattern.h"
 #include "scenario/number_column.h"
 #include "scenario/row_filter.h"
 #include "scenario/stretches.h"
@@ -170,6 +172,24 @@ private:
     }
     out.used = used.take();
     out.all = all.take();
+    state_repeats_of_files(out.used);
+  }
+
+  /// Files of one pattern that no label tells apart are taken for repeats, which may not be meant.
+  void state_repeats_of_files(const std::vector<Readouts>& readings) const {
+    const Csv& csv = *file_->csv;
+    const auto of_several = std::ranges::count_if(readings, [&](const Readouts& r) {
+      const auto part = [&](std::size_t row) { return csv.rows[row][0].part; };
+      return std::ranges::any_of(r.rows, [&](std::size_t row) { return part(row) != part(r.rows[0]); });
+    });
+    if (of_several == 0) return;
+    const std::filesystem::path pattern(csv.file);
+    const auto names = FilePattern(csv.file).names();
+    const std::string name = names.empty() ? "run" : names[0];
+    context_.note(fmt::format("{} reading{} of {} {} over several files: {}labels = {{ {} = \"{}\" }} tells them apart",
+                              of_several, of_several == 1 ? "" : "s", pattern.filename().string(),
+                              of_several == 1 ? "is a mean" : "are means",
+                              names.empty() ? fmt::format("{{{}}} in place of *, and ", name) : "", name, name));
   }
 
   Labels labels_of(const std::vector<CsvCell>& row) {

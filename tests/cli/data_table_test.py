@@ -122,6 +122,16 @@ readings = { column = "x_um", unit = "um" }
         apart = apart.replace('column = "y_um" }', f'column = "y_um", unit = "um", {own} }}')
         self.assertEqual(self.explained(apart).split("\n", 1)[1], shared.split("\n", 1)[1])
 
+    def test_files_that_no_label_tells_apart_are_said_to_be_repeats(self):
+        x = SCENARIO[:SCENARIO.index("[indications.x]")].replace("y = \"gain * position + backlash * direction + offset\"\n", "").replace("offset = { value", "zero = { value")
+        x = x.replace("\ntime = ", "\n# ").replace("backlash * direction", "backlash * direction + zero") + '[indications.x]\nreadings = "x_um"\n'
+        said = 'are means over several files: labels = { run = "run" } tells them apart'
+        self.assertNotIn(said, self.explained(x))
+        apart = x.replace('labels = { run = "run" }\n', "")
+        self.assertIn("3 readings of run_{run}.csv " + said, self.explained(apart))
+        self.assertIn('{run} in place of *, and labels = { run = "run" }', self.explained(apart.replace("{run}.csv", "*.csv")))
+        self.assertNotIn(said, self.explained(apart.replace("{run}", "3")))
+
     def test_noise_of_every_reading(self):
         found = re.findall(r"noise of (\w)(?: \[(.*?)\])? = \S+ m .*\n +u: normal \(mean 0 m, u (\S+) m\)", self.explained())
         self.assertEqual([u for name, _, u in found if name == "x"], ["2e-07", "2e-07", "4e-07"] * 3)
