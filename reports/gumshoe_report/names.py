@@ -68,7 +68,8 @@ def readable(name, shape=""):
         return f"step of {of_label(part)} after {reading}" if part else f"step after {reading}"
     if family == "while" and " from reading " in rest:
         course, _, readings = rest.partition(" from ")
-        return f"difference of {of_label(course.partition(' with ')[2])} from {readings}"
+        part = course.partition(" with ")[2]
+        return f"difference{' of ' + of_label(part) if part else ''} from {readings}"
     if family in ("pulse", "shift") and " about " in rest:
         return f"{'pulse' if family == 'pulse' else 'gradual step'} about {rest.partition(' about ')[2]}"
     if family == "polynomial" and shape.startswith("square"):

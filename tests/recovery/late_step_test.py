@@ -114,6 +114,7 @@ class BetweenSessions(unittest.TestCase):
     def test_what_is_over_came_and_went(self):
         told = [self.found(20 + seed, lambda week: 2.5 * (week in (3, 4))) for seed in range(4)]
         self.assertEqual([r for one in told for r in one if "step:t" in r], [], told)
+        self.assertGreaterEqual(sum(any("while:t from reading" in r for r in one) for one in told), 3, told)
 
 
 class OneTool(unittest.TestCase):

@@ -7,6 +7,7 @@
 #include <set>
 
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include "base/units.h"
 #include "tracing/candidates/courses.h"
@@ -86,7 +87,8 @@ TEST_CASE("a step is found between the readings between which it was made", "[tr
     Vector step = Vector::Zero(static_cast<Index>(count));
     step.tail(step.size() - from).setOnes();
     const auto found = courses_of(o, step);
-    REQUIRE(found.size() == 5); // time is the only course; a drift comes first, and one is of a part
+    // Time is the only course: drift, step, while, step and while of a part, pulse, shift.
+    REQUIRE(found.size() == 7);
     step.array() -= step.mean();
     CHECK(found[1].name ==
           "step:time after reading " + std::to_string(o.sequence[static_cast<std::size_t>(from - 1)] + 1));
@@ -115,6 +117,57 @@ TEST_CASE("a step of one part is found between two of its readings", "[tracing]"
       CHECK(one.searched == static_cast<double>(count - 3 * label.groups.size())); // two before and two after, in each
     }
   }
+}
+
+/// Readings that differ from the one of these places to the one before the other.
+std::string while_name(const Observations& o, const std::vector<std::size_t>& own, std::size_t from,
+                       std::size_t until) {
+  return fmt::format("from reading {} to reading {}", o.sequence[own[from]] + 1, o.sequence[own[until - 1]] + 1);
+}
+
+TEST_CASE("a while is found between the readings between which it lasted, however fine the first grid", "[tracing]") {
+  const Observations o = made();
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  for (const auto& [from, until] : {std::pair<std::size_t, std::size_t>{1, 3}, {5, 20}, {13, 15}, {22, 45}, {8, 47}}) {
+    Vector y = Vector::Zero(static_cast<Index>(count));
+    y.segment(static_cast<Index>(from), static_cast<Index>(until - from)).setOnes();
+    const auto found = courses_of(o, y);
+    const Candidate& one = named(found, "while:time " + while_name(o, all, from, until));
+    CHECK((one.columns - y).norm() == 0);
+    CHECK(one.depends_on == std::vector<std::string>{"time"});
+    // Pairs of the places after the first reading, at least two apart.
+    CHECK(one.searched == (count - 2) * (count - 3) / 2.0);
+  }
+}
+
+TEST_CASE("a while of one part is found between its readings, and between blocks where there are blocks", "[tracing]") {
+  Observations o = made();
+  const Grouping& label = *part_labels(o)[0];
+  std::vector<std::size_t> own; // places of the readings of a part
+  for (std::size_t i = 0; i < count; ++i)
+    if (label.group[o.sequence[i]] == 1) own.push_back(i);
+  const auto of_own = [&](std::size_t from, std::size_t until) {
+    Vector y = Vector::Zero(static_cast<Index>(count));
+    for (std::size_t i = from; i < until; ++i) y[static_cast<Index>(own[i])] = 1;
+    return y;
+  };
+  const std::string name = "while:time with " + label.groups[1] + " ";
+  for (const auto& [from, until] : {std::pair<std::size_t, std::size_t>{1, 3}, {4, 9}, {10, 15}}) {
+    const auto found = courses_of(o, of_own(from, until));
+    const Candidate& one = named(found, name + while_name(o, own, from, until));
+    CHECK((one.columns - of_own(from, until)).norm() == 0);
+    CHECK(one.rare());
+    CHECK(one.searched == 3 * 14 * 13 / 2.0); // sixteen readings of each of three
+  }
+  o.blocks = {"day", {"day"}, {}, {"day 1", "day 2", "day 3", "day 4"}, {{"1"}, {"2"}, {"3"}, {"4"}}};
+  for (std::size_t r = 0; r < count; ++r) o.blocks.group.push_back(3 - r / 12);
+  const auto found = courses_of(o, of_own(4, 8)); // the second day
+  const Candidate& one = named(found, name + while_name(o, own, 4, 8));
+  CHECK(one.searched == 3 * 3); // the second, the third, or both
+  // Of all readings, one block that differs has that name already.
+  CHECK(std::ranges::any_of(
+      found, [](const Candidate& a) { return a.name.starts_with("while:time from") && a.searched == 1; }));
 }
 
 TEST_CASE("what came and went is found with its place and length", "[tracing]") {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -12,187 +10,15 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "tracing/candidates/steps.h"
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
 
-constexpr Index at_once = 64;
-
 /// "38 min"
 std::string shown(const Covariate& c, double si) {
   return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), units::suffix(c.unit));
-}
-
-/// All readings, or those of one part.
-struct Members {
-  const Grouping* label = nullptr; ///< null: all readings
-  std::size_t group = 0;
-  bool holds(std::size_t reading) const { return !label || label->group[reading] == group; }
-};
-
-/// From this place in the sequence on, of all readings or those of one part; or up to another place, which it is
-/// without.
-struct Instant {
-  Index from = 0;
-  Members part = {};
-  Index until = std::numeric_limits<Index>::max();
-  /// A reading is of one part of a label.
-  bool operator==(const Instant& other) const { return from == other.from && part.label == other.part.label; }
-};
-
-/// The step between two successive readings of one indication, or two that cancel.
-class Steps {
-public:
-  Steps(const Observations& o, std::size_t indication) : o_(o), indication_(index(indication)) {}
-
-  Matrix columns(std::span<const Instant> instants) const {
-    const Index n = index(o_.readings), k = index(o_.indications);
-    Matrix out = Matrix::Zero(n * k, index(instants.size()));
-    for (Index j = 0; j < out.cols(); ++j) {
-      const auto& [from, part, until] = instants[static_cast<std::size_t>(j)];
-      for (Index r = from; r < std::min(n, until); ++r)
-        if (part.holds(o_.sequence[index(r)])) out(r * k + indication_, j) = 1;
-    }
-    return out;
-  }
-
-  /// The one that explains most.
-  Instant best(const std::vector<Instant>& places, const Gain& gain) const {
-    Instant found = places.front();
-    double height = -1;
-    for (std::size_t i = 0; i < places.size(); i += at_once) {
-      const auto some = std::span(places).subspan(i, std::min<std::size_t>(at_once, places.size() - i));
-      Index highest = 0;
-      const double here = gain(columns(some), 1, criteria.absorbed_share).maxCoeff(&highest);
-      if (here > height) height = here, found = some[static_cast<std::size_t>(highest)];
-    }
-    return found;
-  }
-
-private:
-  const Observations& o_;
-  Index indication_;
-};
-
-/// Places of the fitted readings in the sequence, of all or of one part.
-std::vector<Index> fitted_places(const Observations& o, const std::vector<Index>& rows, const Members& part) {
-  std::vector<Index> out;
-  for (const Index row : rows)
-    if (const Index place = row / index(o.indications);
-        part.holds(o.sequence[index(place)]) && (out.empty() || out.back() != place))
-      out.push_back(place);
-  return out;
-}
-
-/// Places in the sequence where a step may begin, with a few fitted readings before and after; of a part, whose
-/// readings seldom follow one another, with two of its own.
-std::vector<Instant> instants(const Observations& o, const std::vector<Index>& rows, const Members& part = {}) {
-  const std::vector<Index> fitted = fitted_places(o, rows, part);
-  const std::size_t few = part.label ? criteria.least_repeats : static_cast<std::size_t>(criteria.few_readings) + 1;
-  std::vector<Instant> out;
-  for (std::size_t i = few; i + few <= fitted.size(); ++i) out.push_back({fitted[i], part});
-  return out;
-}
-
-/// The same for every part in turn: one tool was hit, one artefact slipped.
-std::vector<Instant> instants_of_parts(const Observations& o, const std::vector<Index>& rows, const Grouping& label) {
-  std::vector<Instant> out;
-  for (std::size_t g = 0; g < label.groups.size(); ++g)
-    std::ranges::copy(instants(o, rows, {&label, g}), std::back_inserter(out));
-  return out;
-}
-
-/// Those at which a block begins.
-std::vector<Instant> beginnings_of_blocks(const Observations& o, const std::vector<Instant>& places) {
-  std::vector<Instant> out;
-  for (const Instant& at : places)
-    if (!o.blocks.group.empty() &&
-        o.blocks.group[o.sequence[index(at.from)]] != o.blocks.group[o.sequence[index(at.from - 1)]])
-      out.push_back(at);
-  return out;
-}
-
-/// What one part of a label may have been for a while: it was changed, or moved, and put back. Stretches of its fitted
-/// readings, at least two, with one before and one after; where there are blocks they begin and end between blocks.
-class Whiles {
-public:
-  Whiles(const Observations& o, const std::vector<Index>& rows, const Grouping& label) {
-    for (std::size_t g = 0; g < label.groups.size(); ++g) {
-      ends_.push_back({{&label, g}, {}});
-      const std::vector<Index> places = fitted_places(o, rows, ends_.back().part);
-      const auto block = [&](std::size_t i) { return o.blocks.group[o.sequence[index(places[i])]]; };
-      for (std::size_t i = 1; i < places.size(); ++i)
-        if (o.blocks.group.empty() || block(i) != block(i - 1)) ends_.back().at.push_back({i, places[i]});
-    }
-  }
-
-  /// All there are, of which the best counts as the best of so many.
-  std::size_t number() const {
-    std::size_t out = 0;
-    for (const Ends& e : ends_)
-      for (std::size_t i = 0; i < e.at.size(); ++i)
-        for (std::size_t j = i + 1; j < e.at.size(); ++j) out += e.is_one(i, j);
-    return out;
-  }
-
-  /// The one that explains most: of a grid of ends, then of all near its ends, one end after the other.
-  std::optional<Instant> best(const Steps& steps, const Gain& gain) const {
-    std::vector<Instant> grid;
-    for (const Ends& e : ends_)
-      for (std::size_t i = 0; i < e.at.size(); i += e.stride())
-        for (std::size_t j = i + e.stride(); j < e.at.size(); j += e.stride())
-          if (e.is_one(i, j)) grid.push_back(e.between(i, j));
-    if (grid.empty()) return std::nullopt;
-    Instant found = steps.best(grid, gain);
-    const Ends& own = ends_[found.part.group];
-    for (int pass = 0; own.stride() > 1 && pass < 2; ++pass) {
-      found = steps.best(own.near(found, own.stride(), 0), gain);
-      found = steps.best(own.near(found, 0, own.stride()), gain);
-    }
-    return found;
-  }
-
-private:
-  struct End {
-    std::size_t before; ///< fitted readings of the part before it
-    Index place;
-  };
-  /// Those of one part.
-  struct Ends {
-    Members part;
-    std::vector<End> at;
-
-    std::size_t stride() const {
-      return std::max<std::size_t>(1, (at.size() + criteria.most_ends - 1) / criteria.most_ends);
-    }
-    bool is_one(std::size_t i, std::size_t j) const { return at[j].before - at[i].before >= criteria.least_repeats; }
-    Instant between(std::size_t i, std::size_t j) const { return {at[i].place, part, at[j].place}; }
-
-    /// Those whose ends lie so near to this one's, itself among them.
-    std::vector<Instant> near(const Instant& one, std::size_t from, std::size_t until) const {
-      const auto around = [&](Index place, std::size_t reach) {
-        const auto i = static_cast<std::size_t>(std::ranges::find(at, place, &End::place) - at.begin());
-        return std::pair(i - std::min(i, reach), std::min(i + reach, at.size() - 1));
-      };
-      const auto [first, last] = around(one.from, from);
-      const auto [least, most] = around(one.until, until);
-      std::vector<Instant> out;
-      for (std::size_t i = first; i <= last; ++i)
-        for (std::size_t j = std::max(least, i + 1); j <= most; ++j)
-          if (is_one(i, j)) out.push_back(between(i, j));
-      return out;
-    }
-  };
-
-  std::vector<Ends> ends_;
-};
-
-/// The last reading of a part before a place, counted from 1.
-std::size_t last_before(const Observations& o, Index place, const Members& part) {
-  while (!part.holds(o.sequence[index(--place)]))
-    ;
-  return o.sequence[index(place)] + 1;
 }
 
 /// Time since the first reading, over the range, in the order of measurement.
@@ -345,45 +171,48 @@ Candidate drift(const Observations& o, const Covariate& c, std::size_t indicatio
 
 std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& rows, const Gain& gain) {
   std::vector<Candidate> out;
-  const std::vector<Instant> places = instants(o, rows);
+  const std::vector<Stretch> places = steps(o, rows);
   for (const Covariate& c : o.covariates)
     for (std::size_t i = 0; c.course && !places.empty() && i < o.indications; ++i) {
       const double share = Drifts(o, c, i).best(gain);
       out.push_back(drift(o, c, i, std::log(share)));
       out.back().searched = criteria.drift_forms;
       if (c.comes_back) continue; // what happened at one instant, happened once
-      const Steps steps(o, i);
-      const auto add = [&](const std::string& name, const Instant& at, std::size_t among) {
-        out.push_back(shape(o, c, i, name, steps.columns({&at, 1})));
+      const Steps columns(o, i);
+      const auto add = [&](const std::string& name, const Stretch& at, std::size_t among) {
+        out.push_back(shape(o, c, i, name, columns.columns({&at, 1})));
         out.back().searched = static_cast<double>(among);
-      };
-      const auto step = [&](const Instant& at, const std::string& of, std::size_t among) {
-        add(fmt::format("step:{}{} after reading {}", c.name, of, last_before(o, at.from, at.part)), at, among);
-      };
-      const auto of_part = [&](const Grouping& label, std::size_t group) {
+        if (!at.part.label) return;
+        const Grouping& label = *at.part.label;
         out.back().depends_on.push_back(label.name);
-        out.back().amplitudes[0].labels = {{label.name, label.values[group][0]}};
+        out.back().amplitudes[0].labels = {{label.name, label.values[at.part.group][0]}};
       };
-      const Instant from = steps.best(places, gain);
-      step(from, "", places.size());
+      const auto of = [](const Members& part) {
+        return part.label ? " with " + part.label->groups[part.group] : std::string();
+      };
+      const auto step = [&](const Stretch& at, std::size_t among) {
+        add(fmt::format("step:{}{} after reading {}", c.name, of(at.part), last_before(o, at.from, at.part)), at,
+            among);
+      };
+      const auto a_while = [&](const Grouping* label) {
+        const Whiles whiles(o, rows, label);
+        if (const auto at = whiles.best(columns, gain))
+          add(fmt::format("while:{}{} from reading {} to reading {}", c.name, of(at->part),
+                          o.sequence[index(at->from)] + 1, last_before(o, at->until, at->part)),
+              *at, whiles.number());
+      };
+      const Stretch from = columns.best(places, gain);
+      step(from, places.size());
       // One that begins with a block may be what differs there (shape_order.h).
-      if (const std::vector<Instant> beginnings = beginnings_of_blocks(o, places); !beginnings.empty())
-        if (const Instant beginning = steps.best(beginnings, gain); !(beginning == from))
-          step(beginning, "", places.size());
+      if (const std::vector<Stretch> beginnings = at_beginnings_of_blocks(o, places); !beginnings.empty())
+        if (const Stretch beginning = columns.best(beginnings, gain); beginning.from != from.from)
+          step(beginning, places.size());
+      a_while(nullptr);
       for (const Grouping* label : part_labels(o)) {
-        const std::vector<Instant> of_parts = instants_of_parts(o, rows, *label);
+        const std::vector<Stretch> of_parts = steps_of_parts(o, rows, *label);
         if (of_parts.empty()) continue;
-        const Instant at = steps.best(of_parts, gain);
-        step(at, " with " + label->groups[at.part.group], of_parts.size());
-        of_part(*label, at.part.group);
-        const Whiles whiles(o, rows, *label);
-        if (const auto a_while = whiles.best(steps, gain)) {
-          const auto& [from, part, until] = *a_while;
-          add(fmt::format("while:{} with {} from reading {} to reading {}", c.name, label->groups[part.group],
-                          o.sequence[index(from)] + 1, last_before(o, until, part)),
-              *a_while, whiles.number());
-          of_part(*label, part.group);
-        }
+        step(columns.best(of_parts, gain), of_parts.size());
+        a_while(label);
       }
       const double range = c.levels.back() - c.levels.front();
       const auto place = [&](const char* kind, double (*profile)(double), double length_of_width) {

@@ -1,15 +1,15 @@
 #pragma once
 /// Courses of unknown form in time: a step at an unknown instant (something gave way, was hit or was set to zero anew),
-/// of all readings or of one part; what one part alone had for a while (it was changed, and changed back); a pulse of
-/// unknown place and length (something came and went), a shift from one level to another, of unknown place
-/// and length (something came and stayed), and a drift that levels off with an unknown time constant.
+/// or a while between two that cancel (something was changed, and changed back), of all readings or of one part; a
+/// pulse of unknown place and length (something came and went), a shift from one level to another, of unknown place and
+/// length (something came and stayed), and a drift that levels off with an unknown time constant.
 #include "tracing/candidates/forms.h"
 
 namespace gumshoe::tracing {
 
 /// For each indication and each course of the measurement (time, or the order): the step between two successive
 /// readings that explains most, the one at the beginning of a block that does, and the one of a single part
-/// (candidates.h) that does; the while of a single part, between two of its steps, that does; and the pulse, the shift
+/// (candidates.h) that does; the while of all and that of a single part that do; and the pulse, the shift
 /// and the saturating drift that do. The p-value of a step counts as often as there are instants, that of a while as
 /// there are pairs of them; that of a pulse or a shift as that of a step: of white noise, the best of all pulses
 /// exceeds a high limit nearly as often as the best of so many independent shapes (28 to 44 of 50 readings, 225 to 528

@@ -9,6 +9,7 @@ namespace gumshoe::tracing {
 /// Squares of the residuals that each group of `each` neighbouring columns explains, in units of the noise. Rows in the
 /// order of measurement. 0 where the declared model leaves less than a share of the columns.
 using Gain = std::function<Vector(const Matrix& columns, Index each, double share)>;
+inline constexpr Index at_once = 64; ///< columns of which the gain is sought together, by memory
 
 /// The same wave or drift with another parameter. @param shape  of Form::wave or Form::drift
 Candidate with_parameter(const Observations& observations, const Candidate& shape, double parameter);

@@ -55,7 +55,6 @@ public:
   static constexpr double least_cycles = 2; ///< fewer are a drift or a bend
 
 private:
-  static constexpr Index at_once = 64;
   double range_;
   Index rows_, every_, first_;
   Vector x_; ///< in the order of measurement, 0 to 1 over the range

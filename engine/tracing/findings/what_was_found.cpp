@@ -59,15 +59,16 @@ std::string part_of_step(const std::string& shape) {
   if (!shape.starts_with("step:") || with == std::string::npos || after == std::string::npos || after < with) return "";
   return shape.substr(with + 6, after - with - 6);
 }
-/// "tool T3" and "from reading 13 to reading 30" of "while:time with tool T3 from reading 13 to reading 30"; empty of
-/// any other shape.
+/// " with tool T3" and "from reading 13 to reading 30" of "while:time with tool T3 from reading 13 to reading 30";
+/// empty of any other shape.
 struct While {
-  std::string part, readings;
+  std::string with, readings;
 };
 While while_of(const std::string& shape) {
-  const auto with = shape.find(" with "), from = shape.find(" from reading ");
-  if (!shape.starts_with("while:") || with == std::string::npos || from == std::string::npos || from < with) return {};
-  return {shape.substr(with + 6, from - with - 6), shape.substr(from + 1)};
+  const auto from = shape.find(" from reading ");
+  if (!shape.starts_with("while:") || from == std::string::npos) return {};
+  const auto with = std::min(from, shape.find(" with "));
+  return {shape.substr(with, from - with), shape.substr(from + 1)};
 }
 /// The reading about which something came and went.
 std::string pulse_of(const std::string& shape) { return reading_of(shape, "pulse:", " about "); }
@@ -91,8 +92,8 @@ std::string in_its_place(const Finding& f) {
   const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
   if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
   if (shape.starts_with("step:")) return on + " differs from the others, which agree";
-  if (const auto [part, readings] = while_of(shape); !part.empty())
-    return fmt::format("something was different with {} {}", part, readings);
+  if (const auto [with, readings] = while_of(shape); !readings.empty())
+    return fmt::format("something was different{} {}", with, readings);
   if (const std::string reading = pulse_of(shape); !reading.empty()) return "something came and went about " + reading;
   if (const std::string reading = shift_of(shape); !reading.empty()) return "something changed about " + reading;
   return shape == on ? on + " is there" : "the readings follow " + on;
@@ -161,9 +162,9 @@ std::string what_was_found(const Finding& f, const std::string& of) {
                          instant_of(f.described_by), readings);
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
       return fmt::format("Something changed after {}: from then on {} differ by a constant.", reading, readings);
-    if (const auto [part, meanwhile] = while_of(f.described_by); !part.empty())
-      return fmt::format("Something was different with {} {}: meanwhile {} with it differ by a constant.", part,
-                         meanwhile, readings);
+    if (const auto [with, meanwhile] = while_of(f.described_by); !meanwhile.empty())
+      return fmt::format("Something was different{} {}: meanwhile {}{} differ by a constant.", with, meanwhile,
+                         readings, with.empty() ? "" : " with it");
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
       return fmt::format("Something came and went about {}: for a while {} differ.", pulse, readings);
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
@@ -197,8 +198,8 @@ std::string briefly(const Finding& f) {
       const std::string part = part_of_step(f.described_by);
       return fmt::format("a step{} after {}", part.empty() ? "" : " of " + part, reading);
     }
-    if (const auto [part, readings] = while_of(f.described_by); !part.empty())
-      return fmt::format("a difference of {} {}", part, readings);
+    if (const auto [with, readings] = while_of(f.described_by); !readings.empty())
+      return fmt::format("a difference{} {}", with, readings);
     if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
       return "a gradual step about " + reading;

@@ -39,7 +39,7 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
   if (x == o.covariates.end()) return false;
   if (x->course)
     return a.family == Family::omnibus || (name == "polynomial:" + x->name && a.shape.empty()) ||
-           std::ranges::any_of(std::array{"step:", "pulse:", "shift:", "drift:", "wave:"},
+           std::ranges::any_of(std::array{"step:", "while:", "pulse:", "shift:", "drift:", "wave:"},
                                [&](const char* kind) { return name.starts_with(kind); });
   return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }

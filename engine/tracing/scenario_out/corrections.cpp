@@ -227,7 +227,7 @@ double margin_of(const Correction& c) {
 
 std::optional<double> before_and_after(const Correction& c) {
   constexpr double nothing = 0.01; // of its height
-  if (!c.shape.starts_with("pulse:") || c.keys.size() != 1) return std::nullopt;
+  if (!(c.shape.starts_with("pulse:") || c.shape.starts_with("while:")) || c.keys.size() != 1) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(c.loading);
   const double before = c.loading.front(), after = c.loading.back();
   return std::fabs(after - before) <= nothing * (high - low) ? std::optional((before + after) / 2) : std::nullopt;
