@@ -25,7 +25,17 @@ CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& 
     sum.degrees = t.degrees_of_freedom;
   }
   double satterthwaite = 0;
-  for (const auto& [v, sum] : groups.back()) satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
+  std::vector<Sum> estimates(correlations.estimates()); // their squares
+  for (const auto& [v, sum] : groups.back()) {
+    if (const std::size_t e = correlations.estimate_of(v); e < estimates.size()) {
+      estimates[e].contribution += sum.contribution * sum.contribution;
+      estimates[e].degrees = sum.degrees;
+    } else {
+      satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
+    }
+  }
+  for (const Sum& squares : estimates)
+    if (squares.contribution > 0) satterthwaite += squares.contribution * squares.contribution / squares.degrees;
   for (std::size_t g = 0; g < correlations.groups(); ++g) {
     if (groups[g].empty()) continue;
     // The group has those of its members: for simultaneous observations n - 1, as for any function of them.

@@ -23,9 +23,10 @@ struct CombinedVariance {
   double total() const { return std::max(0.0, independent + correlation); }
 };
 
-/// u_c^2 with effective degrees of freedom. Correlated inputs are one term of the Welch-Satterthwaite formula: of a
-/// multivariate t distribution with its degrees of freedom, exactly; otherwise with theirs if these are equal, as of
-/// inputs from one evaluation. A variate may stand in several terms, which then add linearly.
+/// u_c^2 with effective degrees of freedom. The Welch-Satterthwaite formula holds for independent u_i (G.4.1): inputs
+/// whose u are multiples of one estimate are one term, and so are correlated inputs: of a multivariate t distribution
+/// with its degrees of freedom, exactly; otherwise with theirs if these are equal, as of inputs from one evaluation. A
+/// variate may stand in several terms, which then add linearly.
 CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& correlations);
 
 struct Expansion {

@@ -29,6 +29,7 @@ quantities::SamplePlan plan_of_scores(quantities::SamplePlan plan, std::string_v
     group.together.clear();
   }
   for (auto& v : plan.variates) v.key = hash64(name, v.key);
+  for (auto& e : plan.estimates) e.key = hash64(name, e.key);
   return plan;
 }
 

@@ -62,6 +62,8 @@ std::string design_hash(const Experiment& e) {
     for (const auto& ranks : group.together)
       for (const std::uint32_t rank : ranks) record.add(std::uint64_t{rank});
   }
+  for (const auto& one : plan.estimates)
+    if (one.jointly_t) record.add(one.variates), record.add(one.key);
   for (const auto& q : s.quantities) record.add(q.name);
   record.add(std::uint64_t{plan.columns.size()});
   for (const auto& c : plan.columns) {

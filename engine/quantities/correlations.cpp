@@ -9,7 +9,10 @@
 namespace gumshoe::quantities {
 
 Correlations::Correlations(const SamplePlan& plan)
-    : plan_(plan), places_(plan.variates.size(), {plan.copulas.size(), 0}), coefficients_(plan.copulas.size()) {
+    : plan_(plan), places_(plan.variates.size(), {plan.copulas.size(), 0}),
+      estimate_of_(plan.variates.size(), plan.estimates.size()), coefficients_(plan.copulas.size()) {
+  for (std::size_t e = 0; e < plan.estimates.size(); ++e)
+    for (const std::size_t v : plan.estimates[e].variates) estimate_of_[v] = e;
   for (std::size_t g = 0; g < plan.copulas.size(); ++g)
     for (std::size_t i = 0; i < plan.copulas[g].variates.size(); ++i) places_[plan.copulas[g].variates[i]] = {g, i};
 }

@@ -22,6 +22,10 @@ public:
   /// Index into the plan's copulas; groups(), if the variate is in none.
   std::size_t group_of(std::size_t variate) const { return places_[variate].group; }
 
+  std::size_t estimates() const { return plan_.estimates.size(); }
+  /// Index into the plan's common estimates; estimates(), if the variate's u is an estimate of its own.
+  std::size_t estimate_of(std::size_t variate) const { return estimate_of_[variate]; }
+
 private:
   struct Place {
     std::size_t group, member;
@@ -30,6 +34,7 @@ private:
 
   const SamplePlan& plan_;
   std::vector<Place> places_;                     ///< by variate
+  std::vector<std::size_t> estimate_of_;          ///< by variate
   std::vector<std::vector<double>> coefficients_; ///< by group, n x n; NaN: not computed
 };
 

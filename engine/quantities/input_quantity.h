@@ -24,14 +24,17 @@ struct Earlier {
 
 /// One source of uncertainty: a deviation added to the quantity's value.
 struct Component {
-  std::string name;              ///< unique within the quantity; part of the random stream's key
-  Distribution distribution;     ///< of the deviation, SI
-  char evaluation = 'B';         ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
+  std::string name;          ///< unique within the quantity; part of the random stream's key
+  Distribution distribution; ///< of the deviation, SI
+  char evaluation = 'B';     ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
   /// Degrees of freedom of the standard uncertainty; infinite unless stated. Used for the effective degrees of freedom.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
-  std::vector<std::string> per;  ///< scope: one draw per combination of these labels ("reading": per reading)
+  std::vector<std::string> per; ///< scope: one draw per combination of these labels ("reading": per reading)
   std::string source;
   std::optional<Earlier> earlier = {}; ///< where the distribution is from
+  /// Its standard uncertainty comes from one estimate in all entries of the quantity that have a component of this
+  /// name.
+  bool common = false;
 };
 
 /// A value, and components, that hold for the given label values (all readings if `labels` is empty).

@@ -1,6 +1,7 @@
 #include "quantities/sample_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "quantities/cells.h"
 #include "quantities/tying.h"
 
@@ -139,6 +141,35 @@ private:
   std::vector<Problem> problems_;
 };
 
+/// What is known of several draws by one estimated standard deviation.
+std::vector<CommonEstimate> common_estimates(std::span<const InputQuantity> quantities, const SamplePlan& plan,
+                                             std::uint64_t seed) {
+  std::vector<bool> tied(plan.variates.size(), false);
+  for (const CopulaGroup& group : plan.copulas)
+    for (const std::size_t v : group.variates) tied[v] = true;
+  constexpr std::size_t of_all_entries = static_cast<std::size_t>(-1);
+  std::map<std::tuple<std::size_t, std::size_t, std::string>, CommonEstimate> known; // by quantity, entry, component
+  for (std::size_t v = 0; v < plan.variates.size(); ++v) {
+    const Variate& one = plan.variates[v];
+    const Component& c = quantities[one.quantity].entries[one.entry].components[one.component];
+    if (tied[v] || !std::isfinite(c.degrees_of_freedom)) continue;
+    auto [at, fresh] = known.try_emplace({one.quantity, c.common ? of_all_entries : one.entry, c.name});
+    CommonEstimate& estimate = at->second;
+    if (fresh) {
+      const Labels of_entry = c.common ? Labels() : quantities[one.quantity].entries[one.entry].labels;
+      estimate.degrees_of_freedom = c.degrees_of_freedom;
+      estimate.jointly_t = c.degrees_of_freedom <= 2 * largest_gamma_shape;
+      estimate.key = hash64("common estimate", stream_key(seed, quantities[one.quantity].name, c.name, of_entry));
+    }
+    estimate.jointly_t = estimate.jointly_t && one.distribution.family == Family::t;
+    estimate.variates.push_back(v);
+  }
+  std::vector<CommonEstimate> out;
+  for (auto& [of, estimate] : known)
+    if (estimate.variates.size() > 1) out.push_back(std::move(estimate));
+  return out;
+}
+
 } // namespace
 
 double SamplePlan::estimate(std::size_t column) const {
@@ -165,6 +196,7 @@ SamplePlan make_plan(std::span<const InputQuantity> quantities, std::span<const 
     }
   }
   if (!problems.empty()) throw InputError(problems);
+  plan.estimates = common_estimates(quantities, plan, seed);
   return plan;
 }
 

@@ -30,6 +30,11 @@ struct Column {
   std::size_t quantity = 0;          ///< of the scenario
 };
 
+/// Distribution of W = chi-squared / degrees of freedom: gamma(nu / 2, 2 / nu).
+inline Distribution chi_squared_over(double degrees_of_freedom) {
+  return {Family::gamma, {degrees_of_freedom / 2, 2 / degrees_of_freedom}, nullptr, nullptr};
+}
+
 /// Variates tied by a Gaussian copula, drawn together from the samples of an earlier run, or jointly t-distributed:
 /// then z = L e is divided by sqrt(W), with one W = chi-squared / degrees of freedom for all of them.
 struct CopulaGroup {
@@ -44,10 +49,17 @@ struct CopulaGroup {
   std::vector<double> pearson; ///< coefficients of these samples, or Correlation::law; empty: by the copula
   bool singular() const { return cholesky.back() == 0; }
   bool multivariate_t() const { return degrees_of_freedom > 0; }
-  /// Distribution of W: gamma(nu / 2, 2 / nu).
-  Distribution shared_scale() const {
-    return {Family::gamma, {degrees_of_freedom / 2, 2 / degrees_of_freedom}, nullptr, nullptr};
-  }
+  Distribution shared_scale() const { return chi_squared_over(degrees_of_freedom); }
+};
+
+/// Draws of one component whose standard uncertainties are multiples of one estimate, such as a pooled s: it is as
+/// much too small for all of them. t distributions are drawn jointly, then: their normal scores are independent, and
+/// divided by sqrt(W), with one W = chi-squared / degrees of freedom for all. In none that a correlation ties.
+struct CommonEstimate {
+  std::vector<std::size_t> variates; ///< at least two
+  double degrees_of_freedom = 0;     ///< finite
+  bool jointly_t = false;            ///< drawn so; others have their own shapes, and are independent
+  std::uint64_t key = 0;             ///< of the stream of W
 };
 
 struct SamplePlan {
@@ -55,6 +67,7 @@ struct SamplePlan {
   std::vector<Column> columns;
   std::vector<std::vector<std::size_t>> gather; ///< [reading][quantity] -> column
   std::vector<CopulaGroup> copulas;
+  std::vector<CommonEstimate> estimates;
   /// Expectation of a column: value plus the means of its variates' distributions (the estimate).
   double estimate(std::size_t column) const;
   /// The same with variates drawn: one value each.

@@ -50,23 +50,37 @@ struct Sampler::Impl {
   std::vector<Source> sources;
   std::vector<CopulaGroup> copulas;
   std::vector<std::optional<Source>> shared_scales; ///< by group: the W of a multivariate t
-  std::vector<bool> tied;
+  struct Joint {                                    ///< draws of a common estimate
+    std::vector<std::size_t> variates;
+    Source scale; ///< their W
+  };
+  std::vector<Joint> joint;
+  std::vector<bool> tied; ///< not drawn by itself
 
   Impl(const SamplePlan& plan, PointSet point_set, std::uint64_t samples)
       : design(point_set), total(samples), copulas(plan.copulas), tied(plan.variates.size(), false) {
     std::set<std::uint32_t> taken;
-    for (const Variate& variate : plan.variates) sources.push_back(source_of(variate, taken));
+    for (const CommonEstimate& one : plan.estimates)
+      for (const std::size_t v : one.variates) tied[v] = one.jointly_t;
+    for (std::size_t v = 0; v < plan.variates.size(); ++v)
+      sources.push_back(source_of(plan.variates[v], tied[v], taken));
     for (const CopulaGroup& group : copulas)
       shared_scales.push_back(group.multivariate_t()
                                   ? std::optional(source(group.key, sources[group.variates[0]].stream.reading,
                                                          group.shared_scale(), taken))
                                   : std::nullopt);
+    for (const CommonEstimate& one : plan.estimates)
+      if (one.jointly_t)
+        joint.push_back({one.variates, source(one.key, 0, chi_squared_over(one.degrees_of_freedom), taken)});
     for (const CopulaGroup& group : copulas)
       for (const std::size_t v : group.variates) tied[v] = true;
   }
 
-  Source source_of(const Variate& variate, std::set<std::uint32_t>& taken) const try {
-    return source(variate.key, reading_of(variate.cell), variate.distribution, taken);
+  /// @param jointly_t  its normal score is drawn
+  Source source_of(const Variate& variate, bool jointly_t, std::set<std::uint32_t>& taken) const try {
+    const auto& own = variate.distribution;
+    const Distribution score{Family::normal, {own.parameters[0], own.parameters[1]}, nullptr, nullptr};
+    return source(variate.key, reading_of(variate.cell), jointly_t ? score : own, taken);
   } catch (const std::runtime_error&) { // of Boost.Math, which names neither the quantity nor the parameter
     throw InputError(variate.name + ": the quantiles of its distribution cannot be computed",
                      "its parameters are too large or too small", "state usual ones, or another distribution");
@@ -122,6 +136,26 @@ struct Sampler::Impl {
     }
   }
 
+  /// 1 / sqrt(W) of some samples.
+  void widenings(const Source& scale, std::uint64_t first, std::size_t n, Purpose purpose, double* out) const {
+    uniforms(scale, first, n, purpose, out);
+    scale.quantile(out, out, n);
+    for (std::size_t k = 0; k < n; ++k) out[k] = 1 / std::sqrt(out[k]);
+  }
+
+  void draw_jointly(const Joint& one, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
+                    std::size_t stride) const {
+    std::array<double, strip> widening;
+    widenings(one.scale, first, n, purpose, widening.data());
+    for (const std::size_t v : one.variates) {
+      double* z = out + v * stride;
+      const Source& source = sources[v];
+      uniforms(source, first, n, purpose, z);
+      source.quantile(z, z, n); // a normal deviation
+      for (std::size_t k = 0; k < n; ++k) z[k] = source.mean + (z[k] - source.mean) * widening[k];
+    }
+  }
+
   /// Normal scores z, tied by L z in place, then back to deviates: by their distributions, or divided by sqrt(W).
   void draw_group(std::size_t g, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
                   std::size_t stride) const {
@@ -129,11 +163,7 @@ struct Sampler::Impl {
     if (!group.together.empty()) return draw_together(group, first, n, purpose, out, stride);
     const std::size_t size = group.variates.size();
     std::array<double, strip> widening; // 1 / sqrt(W)
-    if (shared_scales[g]) {
-      uniforms(*shared_scales[g], first, n, purpose, widening.data());
-      shared_scales[g]->quantile(widening.data(), widening.data(), n);
-      for (std::size_t k = 0; k < n; ++k) widening[k] = 1 / std::sqrt(widening[k]);
-    }
+    if (shared_scales[g]) widenings(*shared_scales[g], first, n, purpose, widening.data());
     static const QuantileFunction score(Distribution{Family::normal, {0, 1}, {}, {}});
     const auto row = [&](std::size_t i) { return out + group.variates[i] * stride; };
     for (std::size_t i = 0; i < size; ++i) {
@@ -175,6 +205,8 @@ void Sampler::draw(std::uint64_t first, std::size_t n, Purpose purpose, double* 
       impl_->uniforms(impl_->sources[v], first + start, count, purpose, row);
       impl_->sources[v].quantile(row, row, count);
     }
+    for (const Impl::Joint& one : impl_->joint)
+      impl_->draw_jointly(one, first + start, count, purpose, out + start, stride);
     for (std::size_t g = 0; g < impl_->copulas.size(); ++g)
       impl_->draw_group(g, first + start, count, purpose, out + start, stride);
   }

@@ -34,12 +34,13 @@ public:
     note_excess(step, repeatability, own);
     refuse_expanded();
     double unused = 0;
-    const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
+    auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     const std::size_t before = context_.problems.size();
     if (several_)
       for (Table& one : table_.tables("components")) need_scope(one);
     const bool scoped = context_.problems.size() == before;
-    for (const Component& c : further) {
+    for (Component& c : further) {
+      c.common = true; // stated once
       if (c.name == "resolution" || c.name == "repeatability" || (c.name == "u" && !own.empty()))
         table_.add(fmt::format("{}.components: the name '{}' is already used", table_.path(), c.name), "",
                    "choose another name");
@@ -101,6 +102,7 @@ private:
       c.distribution = {Family::normal, {0, scale}, nullptr, nullptr};
     c.evaluation = r.evaluation;
     if (scatter.degrees_of_freedom > 0) c.degrees_of_freedom = scatter.degrees_of_freedom;
+    c.common = r.kind == Repeatability::Kind::declared; // or pooled: one s for all readings
     c.per = {"reading"};
     c.source = r.source;
     return c;

@@ -62,10 +62,10 @@ FORMS = {"declared": lambda rest: f"{of_quantity(rest)} (declared)",
 def readable(name, shape=""):
     """A candidate as a reader says it; `shape`: what was held fixed of it."""
     family, colon, rest = name.partition(":")
-    if family == "step" and " after " in rest:
+    if family in ("step", "bend") and " after " in rest:
         course, _, reading = rest.partition(" after ")
         part = course.partition(" with ")[2]
-        return f"step of {of_label(part)} after {reading}" if part else f"step after {reading}"
+        return f"{family} of {of_label(part)} after {reading}" if part else f"{family} after {reading}"
     if family == "while" and " from reading " in rest:
         course, _, readings = rest.partition(" from ")
         part = course.partition(" with ")[2]

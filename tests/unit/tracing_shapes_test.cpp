@@ -87,8 +87,8 @@ TEST_CASE("a step is found between the readings between which it was made", "[tr
     Vector step = Vector::Zero(static_cast<Index>(count));
     step.tail(step.size() - from).setOnes();
     const auto found = courses_of(o, step);
-    // Time is the only course: drift, step, while, step and while of a part, pulse, shift.
-    REQUIRE(found.size() == 7);
+    // Time is the only course: drift, step, bend, while, those three of a part, pulse, shift.
+    REQUIRE(found.size() == 9);
     step.array() -= step.mean();
     CHECK(found[1].name ==
           "step:time after reading " + std::to_string(o.sequence[static_cast<std::size_t>(from - 1)] + 1));
@@ -115,6 +115,26 @@ TEST_CASE("a step of one part is found between two of its readings", "[tracing]"
       CHECK(one.depends_on == std::vector<std::string>{"time", label.name});
       CHECK(one.rare());
       CHECK(one.searched == static_cast<double>(count - 3 * label.groups.size())); // two before and two after, in each
+    }
+  }
+}
+
+TEST_CASE("a bend, of all readings or of one part, is found at the reading after which it begins", "[tracing]") {
+  const Observations o = made(); // a reading a second
+  const Grouping& label = *part_labels(o)[0];
+  for (const bool part : {false, true}) {
+    std::vector<Index> own;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!part || label.group[o.sequence[i]] == 2) own.push_back(static_cast<Index>(i));
+    for (const std::size_t after : {std::size_t{4}, own.size() / 2, own.size() - 5}) {
+      Vector bend = Vector::Zero(static_cast<Index>(count));
+      for (std::size_t i = after; i < own.size(); ++i) bend[own[i]] = static_cast<double>(own[i] - own[after]);
+      const auto found = courses_of(o, bend);
+      const Candidate& one =
+          named(found, fmt::format("bend:time{} after reading {}", part ? " with " + label.groups[2] : "",
+                                   o.sequence[static_cast<std::size_t>(own[after])] + 1));
+      CHECK((one.columns / one.columns.maxCoeff() - bend / bend.maxCoeff()).norm() < 1e-12);
+      CHECK(one.rare() == part);
     }
   }
 }

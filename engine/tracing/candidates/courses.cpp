@@ -178,9 +178,9 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       out.push_back(drift(o, c, i, std::log(share)));
       out.back().searched = criteria.drift_forms;
       if (c.comes_back) continue; // what happened at one instant, happened once
-      const Steps columns(o, i);
-      const auto add = [&](const std::string& name, const Stretch& at, std::size_t among) {
-        out.push_back(shape(o, c, i, name, columns.columns({&at, 1})));
+      const Steps columns(o, i), bends(o, i, since_the_first(o, c));
+      const auto add = [&](const std::string& name, const Steps& of, const Stretch& at, std::size_t among) {
+        out.push_back(shape(o, c, i, name, of.columns({&at, 1})));
         out.back().searched = static_cast<double>(among);
         if (!at.part.label) return;
         const Grouping& label = *at.part.label;
@@ -191,15 +191,20 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
         return part.label ? " with " + part.label->groups[part.group] : std::string();
       };
       const auto step = [&](const Stretch& at, std::size_t among) {
-        add(fmt::format("step:{}{} after reading {}", c.name, of(at.part), last_before(o, at.from, at.part)), at,
-            among);
+        add(fmt::format("step:{}{} after reading {}", c.name, of(at.part), last_before(o, at.from, at.part)), columns,
+            at, among);
+      };
+      const auto bend = [&](const std::vector<Stretch>& some) {
+        const Stretch at = bends.best(some, gain);
+        add(fmt::format("bend:{}{} after reading {}", c.name, of(at.part), last_before(o, at.from, at.part)), bends, at,
+            some.size());
       };
       const auto a_while = [&](const Grouping* label) {
         const Whiles whiles(o, rows, label);
         if (const auto at = whiles.best(columns, gain))
           add(fmt::format("while:{}{} from reading {} to reading {}", c.name, of(at->part),
                           o.sequence[index(at->from)] + 1, last_before(o, at->until, at->part)),
-              *at, whiles.number());
+              columns, *at, whiles.number());
       };
       const Stretch from = columns.best(places, gain);
       step(from, places.size());
@@ -207,11 +212,13 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       if (const std::vector<Stretch> beginnings = at_beginnings_of_blocks(o, places); !beginnings.empty())
         if (const Stretch beginning = columns.best(beginnings, gain); beginning.from != from.from)
           step(beginning, places.size());
+      bend(places);
       a_while(nullptr);
       for (const Grouping* label : part_labels(o)) {
         const std::vector<Stretch> of_parts = steps_of_parts(o, rows, *label);
         if (of_parts.empty()) continue;
         step(columns.best(of_parts, gain), of_parts.size());
+        bend(of_parts);
         a_while(label);
       }
       const double range = c.levels.back() - c.levels.front();

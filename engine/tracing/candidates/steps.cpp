@@ -22,13 +22,17 @@ std::vector<Index> fitted_places(const Observations& o, const std::vector<Index>
 
 Steps::Steps(const Observations& o, std::size_t indication) : o_(o), indication_(index(indication)) {}
 
+Steps::Steps(const Observations& o, std::size_t indication, Vector time)
+    : o_(o), indication_(index(indication)), time_(std::move(time)) {}
+
 Matrix Steps::columns(std::span<const Stretch> stretches) const {
   const Index n = index(o_.readings), k = index(o_.indications);
   Matrix out = Matrix::Zero(n * k, index(stretches.size()));
   for (Index j = 0; j < out.cols(); ++j) {
     const auto& [from, part, until] = stretches[static_cast<std::size_t>(j)];
+    const double begun = time_.size() > 0 ? time_[place_before(o_, from, part)] : 0;
     for (Index r = from; r < std::min(n, until); ++r)
-      if (part.holds(o_.sequence[index(r)])) out(r * k + indication_, j) = 1;
+      if (part.holds(o_.sequence[index(r)])) out(r * k + indication_, j) = time_.size() > 0 ? time_[r] - begun : 1;
   }
   return out;
 }
@@ -126,10 +130,14 @@ std::vector<Stretch> Whiles::Ends::near(const Stretch& one, std::size_t from, st
   return out;
 }
 
+Index place_before(const Observations& o, Index place, const Members& part) {
+  do --place;
+  while (!part.holds(o.sequence[index(place)]));
+  return place;
+}
+
 std::size_t last_before(const Observations& o, Index place, const Members& part) {
-  while (!part.holds(o.sequence[index(--place)]))
-    ;
-  return o.sequence[index(place)] + 1;
+  return o.sequence[index(place_before(o, place, part))] + 1;
 }
 
 } // namespace gumshoe::tracing

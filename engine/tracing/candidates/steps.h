@@ -1,5 +1,5 @@
 #pragma once
-/// Steps in the order of measurement, of all readings or of one part of a label, and whiles between two of them.
+/// Steps in the order of measurement, of all readings or of one part of a label, whiles between two of them, and bends.
 #include <limits>
 #include <optional>
 #include <span>
@@ -24,10 +24,13 @@ struct Stretch {
   Index until = std::numeric_limits<Index>::max();
 };
 
-/// The columns of stretches, which are one within and zero elsewhere, of one indication.
+/// The columns of stretches, of one indication: zero elsewhere, and one within; or, of bends, a straight line in time
+/// from zero at the last reading before on.
 class Steps {
 public:
   Steps(const Observations& observations, std::size_t indication);
+  /// Bends. @param time  by place in the sequence
+  Steps(const Observations& observations, std::size_t indication, Vector time);
   Matrix columns(std::span<const Stretch> stretches) const;
   /// The one of some that explains most.
   Stretch best(const std::vector<Stretch>& some, const Gain& gain) const;
@@ -35,6 +38,7 @@ public:
 private:
   const Observations& o_;
   Index indication_;
+  Vector time_; ///< empty: of steps
 };
 
 /// Places in the sequence where a step may begin, with a few fitted readings before and after; of a part, whose
@@ -81,7 +85,9 @@ private:
   std::vector<Ends> ends_;
 };
 
-/// The last reading of a part before a place, counted from 1.
+/// The place of the last reading of a part before a place.
+Index place_before(const Observations& observations, Index place, const Members& part);
+/// That reading, counted from 1.
 std::size_t last_before(const Observations& observations, Index place, const Members& part);
 
 } // namespace gumshoe::tracing

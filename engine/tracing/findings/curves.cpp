@@ -90,6 +90,8 @@ public:
     return out;
   }
 
+  bool is_bend() const { return term_.candidate.name.starts_with("bend:"); }
+
   /// "0.49 um/K, u = 0.02 um/K" of a straight line against the covariate, where the term acts; empty of anything else.
   std::string slope(const Covariate& covariate) const {
     const Matrix& columns = term_.candidate.columns;
@@ -97,8 +99,10 @@ public:
     std::vector<double> xs, ys;
     for (std::size_t i = 0; i < o_.readings; ++i) {
       if (!quantities::holds_for(term_.candidate.amplitudes[0].labels, readings_[o_.sequence[i]].labels)) continue;
+      const double y = columns(index(i * o_.indications + indication_), 0);
+      if (y == 0 && is_bend()) continue; // before it
       xs.push_back(covariate.value[o_.sequence[i]]);
-      ys.push_back(columns(index(i * o_.indications + indication_), 0));
+      ys.push_back(y);
     }
     const Vector x = Eigen::Map<const Vector>(xs.data(), index(xs.size())),
                  y = Eigen::Map<const Vector>(ys.data(), index(ys.size()));
@@ -346,16 +350,17 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
     else if (const std::string step = make.step(); !step.empty())
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
-      finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
+      finding.remarks.push_back(fmt::format("{}a straight line against {}: {}", make.is_bend() ? "from then on " : "",
+                                            covariates[0]->name, slope));
   } else if (const std::string step =
                  covariates.empty() || shape.name.starts_with("step:") || shape.name.starts_with("while:") ? make.step()
                                                                                                            : "";
              !step.empty()) {
     finding.remarks.push_back("it differs by " + step);
   } else if (shape.rare() && covariates.size() == 1) {
-    finding.remarks.push_back(fmt::format("{} alone has a straight line against {}: {}",
-                                          quantities::text_of(shape.amplitudes[0].labels), covariates[0]->name,
-                                          make.slope(*covariates[0])));
+    finding.remarks.push_back(
+        fmt::format("{} alone has {}a straight line against {}: {}", quantities::text_of(shape.amplitudes[0].labels),
+                    make.is_bend() ? "from then on " : "", covariates[0]->name, make.slope(*covariates[0])));
   }
   if (finding.remarks.size() == remarks) finding.remarks.push_back("it makes readings differ by up to " + make.reach());
   if (!table.y.empty()) finding.tables.push_back(std::move(table));

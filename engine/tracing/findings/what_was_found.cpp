@@ -70,6 +70,15 @@ While while_of(const std::string& shape) {
   const auto with = std::min(from, shape.find(" with "));
   return {shape.substr(with, from - with), shape.substr(from + 1)};
 }
+/// " with tool T3" and "reading 27" of "bend:time with tool T3 after reading 27"; empty of any other shape.
+struct Bend {
+  std::string with, reading;
+};
+Bend bend_of(const std::string& shape) {
+  const std::string reading = reading_of(shape, "bend:", " after ");
+  const auto after = shape.find(" after "), with = std::min(after, shape.find(" with "));
+  return reading.empty() ? Bend() : Bend{shape.substr(with, after - with), reading};
+}
 /// The reading about which something came and went.
 std::string pulse_of(const std::string& shape) { return reading_of(shape, "pulse:", " about "); }
 /// The reading about which they went over to other values.
@@ -94,6 +103,8 @@ std::string in_its_place(const Finding& f) {
   if (shape.starts_with("step:")) return on + " differs from the others, which agree";
   if (const auto [with, readings] = while_of(shape); !readings.empty())
     return fmt::format("something was different{} {}", with, readings);
+  if (const auto [with, reading] = bend_of(shape); !reading.empty())
+    return fmt::format("something changes steadily{} from {} on", with, reading);
   if (const std::string reading = pulse_of(shape); !reading.empty()) return "something came and went about " + reading;
   if (const std::string reading = shift_of(shape); !reading.empty()) return "something changed about " + reading;
   return shape == on ? on + " is there" : "the readings follow " + on;
@@ -165,6 +176,9 @@ std::string what_was_found(const Finding& f, const std::string& of) {
     if (const auto [with, meanwhile] = while_of(f.described_by); !meanwhile.empty())
       return fmt::format("Something was different{} {}: meanwhile {}{} differ by a constant.", with, meanwhile,
                          readings, with.empty() ? "" : " with it");
+    if (const auto [with, reading] = bend_of(f.described_by); !reading.empty())
+      return fmt::format("Something changes steadily{} from {} on: after it {}{} follow a straight line against {}.",
+                         with, reading, readings, with.empty() ? "" : " with it", f.depends_on[0]);
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
       return fmt::format("Something came and went about {}: for a while {} differ.", pulse, readings);
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
@@ -200,6 +214,8 @@ std::string briefly(const Finding& f) {
     }
     if (const auto [with, readings] = while_of(f.described_by); !readings.empty())
       return fmt::format("a difference{} {}", with, readings);
+    if (const auto [with, reading] = bend_of(f.described_by); !reading.empty())
+      return fmt::format("a steady change{} from {} on", with, reading);
     if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
       return "a gradual step about " + reading;

@@ -30,7 +30,7 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
     return std::ranges::find(label.groups, name.substr(5)) != label.groups.end() ||
            (pass.size() == 1 && pass[0].first == label.name);
   };
-  if ((name.starts_with("step:") || name.starts_with("while:")) &&
+  if ((name.starts_with("step:") || name.starts_with("while:") || name.starts_with("bend:")) &&
       std::ranges::any_of(o.labels,
                           [&](const Grouping& label) { return is_of(label) && one_value_each(label, group); }))
     return true;
@@ -39,7 +39,7 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
   if (x == o.covariates.end()) return false;
   if (x->course)
     return a.family == Family::omnibus || (name == "polynomial:" + x->name && a.shape.empty()) ||
-           std::ranges::any_of(std::array{"step:", "while:", "pulse:", "shift:", "drift:", "wave:"},
+           std::ranges::any_of(std::array{"step:", "while:", "bend:", "pulse:", "shift:", "drift:", "wave:"},
                                [&](const char* kind) { return name.starts_with(kind); });
   return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }

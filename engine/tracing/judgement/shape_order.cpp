@@ -60,6 +60,9 @@ void lower_power(const TraceContext& c, const Evidence& e, std::vector<Trial>& t
   const Candidate& best = e.candidates()[tried[0].candidate];
   for (int p = 1; p < power(e.candidates()[tried[0].candidate]); ++p)
     prefer(c, e, tried, [&](const Candidate& one) { return power(one) == p && one.depends_on == best.depends_on; });
+  if (power(e.candidates()[tried[0].candidate]) == 3) // what begins to wear goes on straight
+    prefer(c, e, tried,
+           [&](const Candidate& one) { return one.name.starts_with("bend:") && one.depends_on == best.depends_on; });
 }
 
 /// Blocks follow one another: where they differ, or one does, that may be a drift.

@@ -8,7 +8,7 @@ namespace gumshoe::tracing {
 /// drift that levels off, or a wave goes before a free curve in the same condition that does not exclude it: it goes on
 /// beyond the readings. One that depends on less goes before a product or a table: a step of one operator before a
 /// slope of his along the positions, and any value for each operator before a table by machine and operator; a straight
-/// line in time before blocks that differ; a lower power before a higher one. Then, where noise is declared, a shape of
+/// line in time before blocks that differ; a lower power before a higher one, and a bend before a cubic. Then, where noise is declared, a shape of
 /// one size that leaves noise as it was declared goes before one that leaves more, for which correlated noise would
 /// have to make up: a jump before a cubic in time.
 /// A step in time goes before a pulse that is not over in what is fitted, and before a gradual change, that do not

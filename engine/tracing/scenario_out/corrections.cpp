@@ -89,8 +89,15 @@ std::optional<StraightLine> line_of(const std::map<double, double>& rows) {
   return all ? std::optional(line) : std::nullopt;
 }
 
+/// The line on which the last two of them lie.
+StraightLine line_of_end(const std::map<double, double>& rows) {
+  const auto last = std::prev(rows.end()), before = std::prev(last);
+  const double slope = (last->second - before->second) / (last->first - before->first);
+  return {last->second - slope * last->first, slope};
+}
+
 /// A group's own dependence on a condition over the levels it met, by one column of the loading. Where other groups
-/// went beyond them, a line goes on, and so does what a step left; of anything else it is empty.
+/// went beyond them, a line goes on, and so does what a step or a bend left; of anything else it is empty.
 std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loading, const Grouping& g,
                                      const std::string& condition, Correction out) {
   const Observations& o = c.observations;
@@ -104,10 +111,11 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
     if (g.group[o.sequence[i]] == active) rows[keys[0]->value[o.sequence[i]]] = loading[index(i)];
   const auto& levels = keys[0]->levels;
   if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) {
-    const auto line = line_of(rows);
-    const bool step = out.shape.starts_with("step:") || out.shape.starts_with("while:");
+    const bool bend = out.shape.starts_with("bend:"),
+               step = out.shape.starts_with("step:") || out.shape.starts_with("while:");
+    const auto line = bend && rows.size() > 1 ? std::optional(line_of_end(rows)) : line_of(rows);
     if (!line && !step) return std::nullopt;
-    const double first = step ? rows.begin()->second : (*line)(levels.front()),
+    const double first = step || bend ? rows.begin()->second : (*line)(levels.front()),
                  last = step ? rows.rbegin()->second : (*line)(levels.back());
     rows.try_emplace(levels.front(), first);
     rows.try_emplace(levels.back(), last);
