@@ -271,6 +271,8 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
       reader.skip_to(row.front().line + below);
       continue;
     }
+    // A logger may end its rows with a separator, and not its header.
+    if (row.size() == csv.header.size() + 1 && row.back().text.empty() && !row.back().quoted) row.pop_back();
     if (row.size() != csv.header.size()) {
       const bool commas = csv.rows.empty() && problems.empty() && reader.separator() == ',' &&
                           has_decimal_commas(row, csv.header.size());

@@ -43,11 +43,11 @@ struct CsvLayout {
 };
 
 /// `separator`: ',', ';', '\t', or ' ' for any number of blanks. '\0' takes it from a first line `sep=;`, or from the
-/// header: a comma if it has one outside quotes, otherwise a semicolon or a tab. A line that begins with # is a comment.
-/// Quoted cells may contain separators, doubled quotes and line ends; empty rows and heads that come again are skipped; a
-/// BOM and CR LF are accepted. Throws InputError with every problem, located: no header, an unnamed or repeated column, a
-/// row of another length, an unclosed quote. A last column without a name and without any text is none: lines may end
-/// with a separator.
+/// header: a comma if it has one outside quotes, otherwise a semicolon or a tab. A line that begins with # is a
+/// comment. Quoted cells may contain separators, doubled quotes and line ends; empty rows and heads that come again are
+/// skipped; a BOM and CR LF are accepted. Throws InputError with every problem, located: no header, an unnamed or
+/// repeated column, a row of another length, an unclosed quote. A last column without a name and without any text is
+/// none: lines may end with a separator, all of them or the rows alone.
 Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& layout = {});
 
 /// A table of the parts' rows, one after the other. Columns are matched by name to those of the first part; further ones

@@ -48,17 +48,21 @@ const std::vector<RoleWords>& role_words() {
 /// Spellings of units in headers.
 const std::map<std::string, std::string>& unit_words() {
   static const std::map<std::string, std::string> all{
-      {"um", "um"},         {"µm", "um"},         {"μm", "um"},     {"micron", "um"},   {"nm", "nm"},
-      {"mm", "mm"},         {"m", "m"},           {"km", "km"},     {"inch", "inch"},   {"in", "inch"},     {"deg", "deg"},
-      {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"}, {"urad", "urad"},   {"µrad", "urad"},
-      {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},     {"ms", "ms"},       {"min", "min"},
-      {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"},     {"C", "degC"},
-      {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"}, {"um/m", "um/m"},   {"%", "%"},
-      {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},     {"kN", "kN"},       {"MN", "MN"},
-      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},     {"mV/V", "mV/V"},   {"mVV", "mV/V"},
-      {"bar", "bar"},       {"mbar", "mbar"},     {"Pa", "Pa"},     {"hPa", "hPa"},     {"kPa", "kPa"},
-      {"MPa", "MPa"},       {"kg", "kg"},         {"rpm", "1/min"}, {"1/min", "1/min"}, {"U/min", "1/min"},
-      {"m/min", "m/min"}};
+      {"um", "um"},         {"µm", "um"},         {"μm", "um"},         {"micron", "um"}, {"nm", "nm"},
+      {"mm", "mm"},         {"m", "m"},           {"km", "km"},         {"inch", "inch"}, {"in", "inch"},
+      {"deg", "deg"},       {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"}, {"urad", "urad"},
+      {"µrad", "urad"},     {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},     {"ms", "ms"},
+      {"min", "min"},       {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"},
+      {"C", "degC"},        {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"}, {"um/m", "um/m"},
+      {"%", "%"},           {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},     {"kN", "kN"},
+      {"MN", "MN"},         {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},     {"mV/V", "mV/V"},
+      {"mVV", "mV/V"},      {"bar", "bar"},       {"mbar", "mbar"},     {"Pa", "Pa"},     {"hPa", "hPa"},
+      {"kPa", "kPa"},       {"MPa", "MPa"},       {"kg", "kg"},         {"rpm", "1/min"}, {"1/min", "1/min"},
+      {"U/min", "1/min"},   {"m/min", "m/min"},   {"uV", "uV"},         {"µV", "uV"},     {"kV", "kV"},
+      {"uA", "uA"},         {"µA", "uA"},         {"mA", "mA"},         {"ohm", "ohm"},   {"Ohm", "ohm"},
+      {"kohm", "kohm"},     {"mohm", "mohm"},     {"mT", "mT"},         {"uT", "uT"},     {"µT", "uT"},
+      {"psi", "psi"},       {"g", "g"},           {"mg", "mg"},         {"mN", "mN"},     {"Ncm", "N cm"},
+      {"mrad/s", "mrad/s"}, {"percent", "%"},     {"pct", "%"}};
   return all;
 }
 

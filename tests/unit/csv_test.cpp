@@ -67,6 +67,17 @@ TEST_CASE("a head that comes again is no row", "[csv]") {
   CHECK(parse_csv("a\na\n", "t.csv").rows.size() == 1); // a word in the only column is one
 }
 
+TEST_CASE("rows may end with a separator where the header does not", "[csv]") {
+  const gumshoe::Csv csv =
+      gumshoe::parse_csv("a,b\n1,2,\n3,\n5,6\n", "t.csv"); // of the second the last cell is empty, and its own
+  REQUIRE(csv.header.size() == 2);
+  REQUIRE(csv.rows.size() == 3);
+  CHECK(csv.rows[0][1].text == "2");
+  CHECK(csv.rows[1][1].text.empty());
+  for (const char* bad : {"a,b\n1,2,3\n", "a,b\n1,2,\"\"\n", "a,b\n1,2,,\n"})
+    CHECK_THROWS_AS(gumshoe::parse_csv(bad, "t.csv"), gumshoe::InputError);
+}
+
 TEST_CASE("malformed tables are refused with their place", "[csv]") {
   CHECK_THROWS_WITH(parse_csv("", "t.csv"), Catch::Contains("t.csv: error: the file is empty"));
   CHECK_THROWS_WITH(parse_csv("a,a\n", "t.csv"), Catch::Contains("t.csv:1:3: error: column 'a' appears twice"));
