@@ -238,6 +238,29 @@ void print_columns(const RecognisedData& found, const std::string& text) {
   }
 }
 
+/// How many rows there are, are left out, and stand twice.
+void print_rows(const RecognisedData& found, const std::string& file, const std::string& text) {
+  std::vector<std::size_t> used;
+  std::vector<std::string> names;
+  for (const auto& c : found.columns)
+    if (c.gaps && uses(text, scenario::toml_string(c.name))) {
+      used.push_back(static_cast<std::size_t>(found.csv.find(c.name)));
+      names.push_back(c.name);
+    }
+  const auto left_out = std::ranges::count_if(found.csv.rows, [&](const auto& row) {
+    return std::ranges::any_of(used, [&](std::size_t c) { return scenario::says_missing(row[c].text); });
+  });
+  std::cout << fmt::format("{}: {} rows{}\n", file, found.csv.rows.size(),
+                           left_out == 0 ? ""
+                                         : fmt::format(", of which {} are left out: {} has no number there", left_out,
+                                                       fmt::join(names, " or ")));
+  if (const auto copied = scenario::copied_rows(found.csv); copied.rows > 0)
+    std::cout << fmt::format(
+        "  {} rows from line {} on are those from line {} on in every cell: were they copied? Rows "
+        "that count twice make uncertainties too small\n",
+        copied.rows, copied.second, copied.first);
+}
+
 /// Reads what was written: what is missing, or which command comes next.
 /// @param found  null: no data file
 void print_next(const NewOptions& o, const std::string& out, const RecognisedData* found) {
@@ -300,7 +323,7 @@ ExitCode run(NewOptions o) {
   const std::string text = text_of(o, found.get(), out);
   write_file(out, text, o.force);
   if (found) {
-    std::cout << fmt::format("{}: {} rows\n", o.from, found->csv.rows.size());
+    print_rows(*found, o.from, text);
     print_columns(*found, text);
   }
   print_next(o, out, found.get());

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -208,6 +209,65 @@ bool names_parts(const RecognisedColumn& c) {
       "nest",     "pose",     "werkzeug", "teil",  "platte",     "schneide"};
   const auto words = words_of(c.name);
   return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
+}
+
+const CsvCell* cell_with_unit(const RecognisedData& data, const RecognisedColumn& c) {
+  if (c.number) return nullptr;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  const CsvCell* first = nullptr;
+  for (const auto& row : data.csv.rows) {
+    const CsvCell& cell = row[column];
+    if (says_missing(cell.text)) continue;
+    const std::size_t end = cell.text.find_first_not_of("+-0123456789.,' eE");
+    if (end == std::string::npos || end == 0) return nullptr;
+    CsvCell number = cell;
+    number.text = cell.text.substr(0, cell.text.find_last_not_of(' ', end - 1) + 1);
+    if (number.text.empty() || unit_below(cell.text.substr(end)).empty() || !is_number(data.csv, number, data.decimal))
+      return nullptr;
+    if (!first) first = &cell;
+  }
+  return first;
+}
+
+CopiedRows copied_rows(const Csv& csv) {
+  struct Same { // rows that are equal
+    std::size_t times = 0;
+    std::vector<std::size_t> at; // the first of them
+  };
+  constexpr std::size_t most_times = 16;
+  constexpr double seldom_equal = 0.1; // files in which so many pairs of rows are equal tell nothing
+  std::map<std::vector<std::string_view>, Same> known;
+  std::map<std::size_t, std::size_t> before, here; // by an earlier row, which equals this one: as many as precede do
+  std::map<std::size_t, std::size_t> by_distance;  // pairs of equal rows
+  CopiedRows out;
+  std::size_t distance = 0;
+  double pairs = 0;
+  for (std::size_t r = 0; r < csv.rows.size(); ++r) {
+    std::vector<std::string_view> texts;
+    for (const CsvCell& cell : csv.rows[r]) texts.emplace_back(cell.text);
+    Same& same = known[std::move(texts)];
+    pairs += static_cast<double>(same.times++);
+    here.clear();
+    for (const std::size_t q : same.at) {
+      ++by_distance[r - q];
+      const auto run = q == 0 ? before.end() : before.find(q - 1);
+      const std::size_t rows = here[q] = run == before.end() ? 1 : run->second + 1;
+      if (rows <= out.rows || q + rows > r) continue;
+      out = {rows, csv.rows[q + 1 - rows].front().line, csv.rows[r + 1 - rows].front().line};
+      distance = r - q;
+    }
+    std::swap(before, here);
+    if (same.at.size() < most_times) same.at.push_back(r);
+  }
+  const double n = static_cast<double>(csv.rows.size());
+  if (out.rows == 0 || pairs > seldom_equal * n * (n - 1) / 2) return {};
+  // How often rows at one distance are equal by chance, the run itself left out.
+  double share = 0;
+  for (const auto& [d, equal] : by_distance)
+    if (const double all = n - static_cast<double>(d); 4 * all > n)
+      share = std::max(share, static_cast<double>(equal + 1 - (d == distance ? out.rows : 0)) / all);
+  constexpr double chance = 1e-3; // of such a run anywhere
+  return n * n / 2 * std::pow(std::min(share, 1.0), static_cast<double>(out.rows)) < chance ? out : CopiedRows{};
 }
 
 std::size_t different(const RecognisedData& data, const RecognisedColumn& c) {

@@ -57,6 +57,16 @@ bool is_number(const Csv& csv, const CsvCell& cell, char decimal);
 /// it.
 void guess_roles(RecognisedData& data);
 
+/// The first cell of a column all of whose texts are a number and its unit, "25.0004 mm"; null: it is none such.
+const CsvCell* cell_with_unit(const RecognisedData& data, const RecognisedColumn& column);
+
+/// Successive rows that stand a second time in the file, alike in every cell, more of them than chance gives.
+struct CopiedRows {
+  std::size_t rows = 0;      ///< 0: none
+  int first = 0, second = 0; ///< lines of the first of them
+};
+CopiedRows copied_rows(const Csv& csv);
+
 /// Number of different texts in a column.
 std::size_t different(const RecognisedData& data, const RecognisedColumn& column);
 

@@ -164,6 +164,9 @@ std::string why_not_used(const RecognisedData& data, const RecognisedColumn& c) 
   if (c.role == ColumnRole::time && first && first != &c && first->date != c.name) return "the time is " + first->name;
   if (c.role == ColumnRole::uncertainty && first == &c && !uncertainty_of(data))
     if (c.number) return not_above_zero(data, c);
+  if (const CsvCell* const cell = cell_with_unit(data, c))
+    return fmt::format("its cells hold their unit, as '{}': write numbers alone, and the unit in the column's name",
+                       cell->text);
   if (std::string odd = odd_cells(data, c); !odd.empty() && c.words.empty()) return odd;
   if (!c.number && c.words.empty() &&
       (c.role == ColumnRole::temperature || c.role == ColumnRole::direction || c.role == ColumnRole::uncertainty))

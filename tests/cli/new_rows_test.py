@@ -1,0 +1,67 @@
+"""What `gumshoe new` says of rows: left out, copied, ended by a separator, with units in their cells.
+
+usage: new_rows_test.py path/to/gumshoe [unittest options]
+"""
+import random
+import unittest
+
+from starter import Starter
+
+HEADER = "day,operator,temp_degC,size_mm"
+
+
+def rows(seed=1, count=40):
+    draw = random.Random(seed)
+    return [f"{i // 8 + 1},{'AB'[i % 2]},{20 + draw.gauss(0, 1):.1f},{25 + draw.gauss(0, 0.002):.4f}" for i in range(count)]
+
+
+class Rows(Starter):
+    def told(self, lines, code=0):
+        (self.folder / "log.csv").write_text("\n".join(lines) + "\n")
+        return self.new("--from", "log.csv", "--force", code=code)
+
+    def test_rows_may_end_with_a_separator_and_the_header_not(self):
+        said = self.told([HEADER] + [row + "," for row in rows()])
+        self.assertIn("log.csv: 40 rows\n", said)
+        self.assertIn("size_mm: reading, mm", said)
+        self.assertIn("ready. Next:", said)
+        self.assertNotIn("header =", (self.folder / "log.toml").read_text())
+
+    def test_a_further_cell_with_a_text_is_no_end_of_a_row(self):
+        self.assertIn("the row has 5 cells, the header 4", self.told([HEADER] + [row + ",x" for row in rows(count=1)], code=2))
+
+    def test_units_of_electricity_mass_and_pressure_are_read_from_names(self):
+        for unit in ("uV", "kV", "uA", "mA", "ohm", "mT", "psi", "g", "mg", "mN"):
+            with self.subTest(unit):
+                self.assertIn(f"signal_{unit}: reading, {unit} (", self.told([f"day,signal_{unit}"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
+        self.assertIn("signal_percent: reading, % (", self.told(["day,signal_percent"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
+
+    def test_units_in_cells_are_said(self):
+        said = self.told([HEADER] + [row + " mm" for row in rows()], code=2)
+        self.assertIn("log.csv:2:10: error: the cells of the column 'size_mm' are no numbers: '25.", said)
+        self.assertIn("(they hold their unit). Write numbers alone, and the unit in the column's name, as size (mm).", said)
+        other = self.told(["day,size_mm,width_um"] + [f"{i // 5},25.{i} mm,{i * 7 % 11 / 10}" for i in range(30)])
+        self.assertIn("its cells hold their unit, as '25.0 mm'", other)
+
+    def test_rows_that_are_left_out_are_counted(self):
+        lines = rows()
+        for i in (3, 17, 18):
+            lines[i] = lines[i].rsplit(",", 1)[0] + ","
+        self.assertIn("log.csv: 40 rows, of which 3 are left out: size_mm has no number there\n", self.told([HEADER] + lines))
+
+    def test_rows_that_were_copied_are_said(self):
+        lines = rows(2)
+        said = self.told([HEADER] + lines[:24] + lines[12:24] + lines[24:])
+        self.assertIn("  12 rows from line 26 on are those from line 14 on in every cell: were they copied?", said)
+
+    def test_rows_that_recur_by_chance_are_not_said_to_be_copied(self):
+        """Two readings a day in steps: rows of a day are equal in one of ten or twenty cases, and runs of them are rare."""
+        for seed in range(20):
+            draw = random.Random(seed)
+            lines = [f"{i // 8 + 1},{'AB'[i % 2]},{draw.choice('0123456789')}" for i in range(80)]
+            self.assertNotIn("copied", self.told(["day,operator,dev_um"] + lines))
+        self.assertNotIn("copied", self.told(["operator,dev_um"] + ["A,1.5"] * 30 + ["A,1.6"] * 30))
+
+
+if __name__ == "__main__":
+    unittest.main()
