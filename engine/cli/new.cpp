@@ -15,6 +15,7 @@
 #include "cli/command.h"
 #include "cli/installed.h"
 #include "cli/shell.h"
+#include "scenario/document.h"
 #include "scenario/log_form.h"
 #include "scenario/made_models.h"
 #include "scenario/starter_parts.h"
@@ -261,6 +262,20 @@ void print_rows(const RecognisedData& found, const std::string& file, const std:
         copied.rows, copied.second, copied.first);
 }
 
+/// Quantities with a value for each part, in the words of their comment: what they absorb is found by nobody.
+void print_fitted_by_label(const std::string& text, const std::string& out) {
+  const scenario::Node document = scenario::parse_document(text, out);
+  const scenario::Node* const quantities = scenario::find_member(document, "quantities");
+  for (const auto& [name, line, column, quantity] :
+       quantities ? quantities->members : std::vector<scenario::Member>{}) {
+    const auto* const estimated = scenario::find_member(quantity, "estimated");
+    const auto* const by = scenario::find_member(quantity, "by");
+    if (!estimated || !estimated->boolean || !by || by->members.empty()) continue;
+    std::cout << fmt::format("  {}: {} (line {}; for one that all share: value = ... in place of by.{})\n", name,
+                             scenario::by_label_comment(by->members[0].key, ""), line, by->members[0].key);
+  }
+}
+
 /// Reads what was written: what is missing, or which command comes next.
 /// @param found  null: no data file
 void print_next(const NewOptions& o, const std::string& out, const RecognisedData* found) {
@@ -325,6 +340,7 @@ ExitCode run(NewOptions o) {
   if (found) {
     print_rows(*found, o.from, text);
     print_columns(*found, text);
+    print_fitted_by_label(text, out);
   }
   print_next(o, out, found.get());
   return ExitCode::done;

@@ -13,6 +13,12 @@ namespace gumshoe::scenario {
 
 namespace {
 
+/// The label of alignments, each of which has quantities of its own; empty: there is none.
+std::string alignment_of(const NamedColumns& labels) {
+  const auto found = std::ranges::find(labels, ColumnRole::alignment, [](const auto& l) { return l.second->role; });
+  return found == labels.end() ? "" : found->first;
+}
+
 /// A quantity that is fitted: one, or one of each alignment.
 std::string fitted(const RecognisedData& data, const NamedColumns& labels, const std::string& unit) {
   const std::string zero = fmt::format("\"0 {}\"", unit);
@@ -204,15 +210,18 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   out += "\n[quantities]                            # fitted to the readings\n";
   if (!model.reference.empty())
     out += line(model.reference, fmt::format("\"0 {}\"", pos), "offset holds here, not at 0 K");
+  const std::string alignment = alignment_of(labels);
+  const std::string comment = alignment.empty() ? "" : by_label_comment(alignment, "");
   for (const Channel& c : all) {
     // What is added to a temperature is a difference.
     const std::string difference = difference_unit_or(*c.column, "um");
-    out += line(c.offset, fitted(found, labels, measured ? difference : unit_or(*c.column, "um")), "");
+    out += line(c.offset, fitted(found, labels, measured ? difference : unit_or(*c.column, "um")), comment);
     if (!turns)
-      out += line(c.gain,
-                  fitted(found, labels, units::quotient(measured ? pos_difference : difference, pos_difference)), "");
+      out +=
+          line(c.gain, fitted(found, labels, units::quotient(measured ? pos_difference : difference, pos_difference)),
+               comment);
     for (const std::string& axis : {c.eccentricity_x, c.eccentricity_y})
-      if (!axis.empty()) out += line(axis, fitted(found, labels, difference), "");
+      if (!axis.empty()) out += line(axis, fitted(found, labels, difference), comment);
     if (direction)
       out += line(c.reversal, fmt::format("{{ estimated = true, value = \"0 {}\" }}", difference),
                   "half of the reversal error");

@@ -66,7 +66,8 @@ bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& c) {
   });
 }
 
-/// Whether the words of a column alternate: each part was measured again after others.
+} // namespace
+
 bool comes_back(const RecognisedData& data, const RecognisedColumn& c) {
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
   std::set<std::string> left;
@@ -80,6 +81,8 @@ bool comes_back(const RecognisedData& data, const RecognisedColumn& c) {
   }
   return false;
 }
+
+namespace {
 
 /// The label with enough values for blocks; null: there is none.
 const NamedColumns::value_type* block_label(const RecognisedData& data, const NamedColumns& labels) {
@@ -278,6 +281,11 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& c, cons
       }
   throw InputError(fmt::format("{}: the column '{}' has too few numbers", data.csv.file, c.name), "it has the " + role,
                    remedy);
+}
+
+std::string by_label_comment(const std::string& label, const std::string& why) {
+  return fmt::format("fitted for each {} by itself{}: what differs from one {} to the next is not judged", label,
+                     why.empty() ? "" : ", " + why, label);
 }
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }

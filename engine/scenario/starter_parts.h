@@ -32,6 +32,11 @@ const RecognisedColumn* uncertainty_of(const RecognisedData& data);
 /// Why a scenario does not use a column, or what its role rests on; empty: nothing to say.
 std::string why_not_used(const RecognisedData& data, const RecognisedColumn& column);
 
+/// Whether the words of a column alternate: each part was measured again after others.
+bool comes_back(const RecognisedData& data, const RecognisedColumn& column);
+/// Comment on a quantity that is fitted for each value of a label. @param why  "because they differ"; may be empty
+std::string by_label_comment(const std::string& label, const std::string& why);
+
 /// Refuses a column that a scenario needs as numbers and that has a cell of another kind. @param role  "readings"
 void require_numbers(const RecognisedData& data, const RecognisedColumn& column, const std::string& role);
 

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <map>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "scenario/starter_order.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -52,19 +54,35 @@ bool differ(const std::map<std::string, std::vector<double>>& parts) {
          squares(means) / (parts_n - 1) > far * far * within / (readings - parts_n);
 }
 
-/// The constant that is fitted to a column of readings: one, or one of each part.
-std::string offset_of(const RecognisedData& data, const RecognisedColumn& reading, const NamedColumns& labels) {
+/// Whether the values of a label have no size of their own: people, machines and lots that should agree, and what
+/// follows one after the other in time. There one offset is fitted to all, so that a trace finds what differs, be it
+/// ever so large.
+bool should_agree(const RecognisedData& data, const RecognisedColumn& c) {
+  static const std::set<std::string> names{"operator", "bediener",   "observer", "inspector", "pruefer", "prüfer",
+                                           "lab",      "laboratory", "labor",    "batch",     "lot",     "charge",
+                                           "machine",  "maschine",   "station",  "week",      "month",   "session"};
+  const auto words = words_of(c.name);
+  return c.role == ColumnRole::cycle || counts_blocks(c) || !comes_back(data, c) ||
+         std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
+}
+
+/// The constant that is fitted to a column of readings: one, or one of each part; and a comment.
+std::pair<std::string, std::string> offset_of(const RecognisedData& data, const RecognisedColumn& reading,
+                                              const NamedColumns& labels) {
   const std::string zero = fmt::format("\"0 {}\"", unit_or(reading, "um"));
   for (const auto& [name, c] : labels) {
-    if (c->role == ColumnRole::cycle) continue;
+    const bool told = c->role == ColumnRole::alignment && c->basis == Basis::user;
+    if (!told && should_agree(data, *c)) continue;
     const auto parts = by_text(data, reading, *c);
-    if (!differ(parts)) continue;
+    if (!told && !differ(parts)) continue;
     std::string all;
     for (const auto& [part, y] : parts)
       all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", toml_string(part), zero);
-    return fmt::format("{{ estimated = true, by.{} = {{ {} }} }}", name, all);
+    return {fmt::format("{{ estimated = true, by.{} = {{ {} }} }}", name, all),
+            told ? by_label_comment(name, "as told")
+                 : "guessed: " + by_label_comment(name, "because they differ ten times as much as readings of one do")};
   }
-  return fmt::format("{{ estimated = true, value = {} }}", zero);
+  return {fmt::format("{{ estimated = true, value = {} }}", zero), ""};
 }
 
 } // namespace
@@ -114,7 +132,10 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
   for (const auto& [name, c] : readings) out += line(name, toml_string(offsets[name]), "");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
-  for (const auto& [name, c] : readings) out += line(offsets[name], offset_of(found, *c, labels), "");
+  for (const auto& [name, c] : readings) {
+    const auto [offset, comment] = offset_of(found, *c, labels);
+    out += line(offsets[name], offset, comment);
+  }
   for (const auto& [name, c] : readings)
     out += fmt::format("\n[indications.{}]\n", name) +
            line("readings", toml_string(c->name),

@@ -14,6 +14,7 @@
 #include "tracing/criteria.h"
 #include "tracing/findings/comparison.h"
 #include "tracing/findings/findings.h"
+#include "tracing/findings/offsets.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/fit/jumping_unknowns.h"
 #include "tracing/fit/starting_values.h"
@@ -321,6 +322,7 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
   }
   compose(c, stands, out);
   state_sizes_sought(scenario, out);
+  std::ranges::move(fitted_by_label(out), std::back_inserter(out.statements));
   summarise(out);
   return out;
 }

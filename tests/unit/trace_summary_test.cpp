@@ -76,3 +76,13 @@ TEST_CASE("where nothing is found, the sentence says how seldom noise alone give
     CHECK(t.plain[0].find(words) != std::string::npos);
   }
 }
+
+TEST_CASE("limits are spoken of where there are some", "[tracing][verdict]") {
+  Trace t = made::trace("nothing_found").trace;
+  summarise(t);
+  CHECK(t.plain.back().find("the table lists those limits") != std::string::npos);
+  t.detection_limits.clear();
+  summarise(t);
+  CHECK(t.plain.back().find("limits") == std::string::npos);
+  CHECK(t.plain.back().find("small compared with the noise") != std::string::npos);
+}

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
+#include "tracing/findings/offsets.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/verdict_json.h"
 #include "tracing/findings/what_was_found.h"
@@ -182,6 +183,14 @@ std::string which_block_differs(const Trace& t) {
                      shown_rms(b.spread, t.rms), shown_rms(b.others, t.rms));
 }
 
+/// What a search that found nothing cannot exclude.
+std::string what_may_be_there(const Trace& t) {
+  if (!t.detection_limits.empty())
+    return "Effects smaller than the detection limits may still be present; the table lists those limits.";
+  return fmt::format("Effects that are small compared with the noise{} may still be present.",
+                     std::isfinite(t.rms.noise) ? fmt::format(" ({})", shown_rms(t.rms.noise, t.rms)) : "");
+}
+
 constexpr const char* nothing_is_added = "Nothing is added to the model. Measure more blocks to decide.";
 
 /// First what was found and what to do; then what is left all the same.
@@ -227,9 +236,11 @@ std::vector<std::string> verdict_in_words(const Trace& t) {
     out.push_back(which_block_differs(t));
     if (t.findings.empty()) out.push_back("Find out what was different, or leave it out, and trace again.");
   }
-  if (out.empty())
-    out = {what_residuals_show(t),
-           "Effects smaller than the detection limits may still be present; the table lists those limits."};
+  if (out.empty()) {
+    out = {what_residuals_show(t)};
+    for (std::string& one : fitted_by_label(t)) out.push_back(std::move(one) + '.');
+    out.push_back(what_may_be_there(t));
+  }
   return out;
 }
 
