@@ -10,6 +10,8 @@
 
 #include "calibration/data.h"
 #include "quantities/cells.h"
+#include "scenario/document.h"
+#include "scenario/stretches.h"
 #include "tracing/criteria.h"
 #include "tracing/noise/step.h"
 
@@ -47,6 +49,21 @@ Grouping grouping(const Scenario& s, const std::vector<std::size_t>& sequence, c
 std::vector<std::string> label_names(const Scenario& s) {
   std::vector<std::string> out;
   for (const auto& [label, value] : s.readings.front().labels) out.push_back(label);
+  return out;
+}
+
+/// Whether the blocks are stretches of the data, cut by their number or length.
+bool blocks_are_stretches(const Scenario& s) {
+  if (s.trace.blocks != scenario::stretch_label) return false;
+  const scenario::Node document = scenario::parse_document(s.text, s.file);
+  return scenario::has_stretches(scenario::find_member(document, "trace"));
+}
+
+/// Labels by which readings may differ, or scatter. A slice of time is no cause: what changes from one to the next
+/// changes with time, or resembles what was before.
+std::vector<std::string> causes(const Scenario& s) {
+  auto out = label_names(s);
+  if (blocks_are_stretches(s)) std::erase(out, scenario::stretch_label);
   return out;
 }
 
@@ -122,7 +139,7 @@ void find_label_pairs(const Scenario& s, Observations& o) {
 void find_replicate_groups(const Scenario& s, Observations& o) {
   auto sets = s.trace.redone.value_or(std::vector<std::vector<std::string>>{});
   if (!s.trace.redone) {
-    const auto names = label_names(s);
+    const auto names = causes(s);
     // Not all are tried: one that numbers what was done anew goes before two that number it together.
     for (const std::string& name : names) sets.push_back({name});
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -137,7 +154,7 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
     }
     for (const Grouping& pair : o.label_pairs) {
       std::erase(sets, pair.labels);
-      sets.push_back({pair.labels[0], pair.labels[1], s.trace.blocks});
+      if (!blocks_are_stretches(s)) sets.push_back({pair.labels[0], pair.labels[1], s.trace.blocks});
     }
   }
   const std::size_t least = s.trace.redone ? criteria.stated_replicates : criteria.found_replicates;
@@ -301,7 +318,7 @@ Observations observe(const propagation::Experiment& e) {
     add_covariate(o, "order", "1", "1", rank);
     o.covariates.back().course = true;
   }
-  for (const std::string& label : label_names(s)) {
+  for (const std::string& label : causes(s)) {
     Grouping g = grouping(s, o.sequence, {label});
     if (g.groups.size() >= 2 && g.groups.size() < o.readings) o.labels.push_back(std::move(g));
   }
