@@ -77,6 +77,34 @@ TEST_CASE("where nothing is found, the sentence says how seldom noise alone give
   }
 }
 
+TEST_CASE("a sentence names what these data cannot distinguish from it", "[tracing][verdict]") {
+  const auto said = [](const char* shape, const char* depends_on, const char* rivals) {
+    Trace t = made::trace("not_in_catalogue").trace;
+    t.findings.resize(1);
+    Finding& f = t.findings[0];
+    f.described_by = shape;
+    f.depends_on = {depends_on};
+    f.remarks = {std::string("these data cannot distinguish it from ") + rivals};
+    summarise(t);
+    return t.plain[0];
+  };
+  CHECK(said("step:operator Bob", "operator",
+             "step:machine M2 (the same in every reading), step:order with operator Ann after reading 2") ==
+        "operator Bob or machine M2, which are never apart in these data, differs from the others by a constant.");
+  CHECK(said("polynomial:time", "time", "polynomial:temp, drift:temp (saturating, time constant 9 s)") ==
+        "An unknown effect changes the readings with time; these data cannot distinguish it from an effect of temp.");
+  CHECK(said("step:machine M1", "machine",
+             "step:operator Ann, machine M1 (the same in every reading), step:operator Bob") ==
+        "machine M1 differs from the others by a constant; these data cannot distinguish it from a constant difference "
+        "of operator Bob.");
+  CHECK(said("step:time after reading 9", "time", "step:machine M2, polynomial:1/temp^2") ==
+        "Something changed after reading 9: from then on the readings differ by a constant; these data cannot "
+        "distinguish it from a constant difference of machine M2 or an effect of temp.");
+  // What is the same in every reading is of another sort than a group: it is told apart from the subject.
+  CHECK(said("step:operator Bob", "operator", "polynomial:load (the same in every reading)") ==
+        "operator Bob differs from the others by a constant; these data cannot distinguish it from an effect of load.");
+}
+
 TEST_CASE("limits are spoken of where there are some", "[tracing][verdict]") {
   Trace t = made::trace("nothing_found").trace;
   summarise(t);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/verdict_json.h"
+#include "tracing/judgement/shape_order.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -121,6 +123,73 @@ std::string told(const std::vector<std::string>& members) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
+/// Others that describe the readings as well as a shape does: what always went with it, and what did not.
+struct Rivals {
+  std::vector<std::string> never_apart; ///< "machine M2", "temp_degc": of the same sort as the shape
+  std::vector<std::string> others;      ///< "a constant difference of machine M2", "an effect of time"
+};
+
+/// What a shape is of, "machine M2" or "time", and the same with what it does.
+struct InWords {
+  std::string on, told;
+  bool group = false, of_one = true; ///< of a group of a label; of one condition or label alone
+};
+InWords in_words(std::string shape) {
+  if (shape.ends_with(never_apart)) shape.resize(shape.size() - never_apart.size());
+  const std::string kind = shape.substr(0, shape.find(':')), rest = shape.substr(shape.find(':') + 1);
+  if (kind == "step") {
+    const std::string reading = instant_of(shape), part = part_of_step(shape);
+    if (!part.empty()) return {part, fmt::format("a step of {} after {}", part, reading), false, false};
+    if (!reading.empty()) return {reading, "a step after " + reading};
+    return {rest, "a constant difference of " + rest, true};
+  }
+  std::string on = rest.substr(0, rest.find_first_of("^ "));
+  if (on.starts_with("1/")) on.erase(0, 2);
+  return {on, "an effect of " + on, false, on.find('*') == std::string::npos};
+}
+
+/// The shapes that a remark lists, apart: each begins with its kind, "step:". Their names may hold commas, too.
+std::vector<std::string> listed(std::string_view text) {
+  static const std::regex next(", (?=[a-z]+:)");
+  const std::string all(text);
+  return {std::sregex_token_iterator(all.begin(), all.end(), next, -1), std::sregex_token_iterator()};
+}
+
+/// Whether one shape is of the other's group alone, or of a part of it: "operator Ann, machine M1" and "machine M1".
+bool overlap(const InWords& a, const InWords& b) {
+  return a.group && b.group && (a.on.find(b.on) != std::string::npos || b.on.find(a.on) != std::string::npos);
+}
+
+Rivals rivals_in_words(const Finding& f) {
+  Rivals out;
+  const InWords own = in_words(f.described_by);
+  const auto add = [](std::vector<std::string>& to, const std::string& one) {
+    if (std::ranges::find(to, one) == to.end()) to.push_back(one);
+  };
+  std::vector<std::string> further;
+  for (const std::string& remark : f.remarks) {
+    if (!remark.starts_with(rivals_begin)) continue;
+    for (const std::string& shape : listed(std::string_view(remark).substr(rivals_begin.size()))) {
+      const InWords one = in_words(shape);
+      if (overlap(one, own)) continue;
+      if (shape.ends_with(never_apart) && one.of_one && one.group == own.group)
+        add(out.never_apart, one.on);
+      else
+        add(one.of_one ? out.others : further, one.told);
+    }
+  }
+  if (out.others.empty()) out.others = std::move(further); // of parts for a while, say: only where nothing simpler is
+  return out;
+}
+
+/// "operator Bob", or "operator Bob or machine M2, which are never apart in these data,". @param end after the names
+std::string with_those_never_apart(const std::string& name, const Finding& f, const char* end) {
+  const Rivals rivals = rivals_in_words(f);
+  if (rivals.never_apart.empty()) return name;
+  return fmt::format("{} or {}, which are never apart in these data{}", name, fmt::join(rivals.never_apart, " or "),
+                     end);
+}
+
 /// A hysteresis without a condition that is the direction depends on one condition, and on from where it was reached.
 std::string reversed_condition(const Finding& f) {
   const bool one = f.described_by.starts_with("hysteresis:") && f.depends_on.size() == 1;
@@ -135,7 +204,9 @@ std::string indication_of(const Trace& t, const Finding& f) {
   return {};
 }
 
-std::string what_was_found(const Finding& f, const std::string& of) {
+namespace {
+
+std::string found_alone(const Finding& f, const std::string& of) {
   const std::string readings = of.empty() ? "the readings" : "the readings of " + of;
   const std::string size = size_of(f);
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
@@ -188,14 +259,28 @@ std::string what_was_found(const Finding& f, const std::string& of) {
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
         f.described_by.starts_with(step) && f.described_by.find(f.depends_on[0] + " ") != std::string::npos)
-      return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
+      return fmt::format("{} differs from the others by a constant.",
+                         with_those_never_apart(f.described_by.substr(step.size()), f, ","));
     return fmt::format("An unknown effect changes {} {}with {}.", readings,
-                       f.described_by.starts_with("wave:") ? "periodically " : "", depends_on);
+                       f.described_by.starts_with("wave:") ? "periodically " : "",
+                       with_those_never_apart(depends_on, f, ""));
   }
   return {};
 }
 
-std::string briefly(const Finding& f) {
+} // namespace
+
+std::string what_was_found(const Finding& f, const std::string& of) {
+  std::string out = found_alone(f, of);
+  const Rivals rivals = rivals_in_words(f);
+  if (!rivals.never_apart.empty() || rivals.others.empty()) return out;
+  out.pop_back(); // the full stop
+  return fmt::format("{}; these data cannot distinguish it from {}.", out, fmt::join(rivals.others, " or "));
+}
+
+namespace {
+
+std::string briefly_alone(const Finding& f) {
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
   switch (f.kind) {
   case Kind::named:
@@ -224,6 +309,14 @@ std::string briefly(const Finding& f) {
     return "an unknown effect of " + depends_on;
   }
   return {};
+}
+
+} // namespace
+
+std::string briefly(const Finding& f) {
+  const Rivals rivals = rivals_in_words(f);
+  const auto& either = rivals.never_apart.empty() ? rivals.others : rivals.never_apart;
+  return either.empty() ? briefly_alone(f) : fmt::format("{} (or {})", briefly_alone(f), fmt::join(either, " or "));
 }
 
 } // namespace gumshoe::tracing

@@ -198,6 +198,18 @@ bool is_one_of_several_forms(const Evidence& e, std::size_t a) {
   return false;
 }
 
+namespace {
+
+/// Whether two signatures rise and fall together in all readings, those of the hold-out blocks among them.
+bool same_but_for_scale(const Candidate& a, const Candidate& b) {
+  const Vector x = a.columns.col(0).array() - a.columns.col(0).mean(),
+               y = b.columns.col(0).array() - b.columns.col(0).mean();
+  constexpr double rounding = 1e-9;
+  return x.dot(y) >= (1 - rounding) * x.norm() * y.norm();
+}
+
+} // namespace
+
 std::string rivals_of(const Evidence& e, std::size_t a, const std::vector<Trial>& tried) {
   const Candidate& own = e.candidates()[a];
   const double ratio = std::ranges::find(tried, a, &Trial::candidate)->ratio;
@@ -206,9 +218,9 @@ std::string rivals_of(const Evidence& e, std::size_t a, const std::vector<Trial>
     const Candidate& other = e.candidates()[t.candidate];
     if (t.candidate != a && own.columns.cols() == 1 && other.columns.cols() == 1 &&
         other.depends_on != own.depends_on && std::fabs(t.ratio - ratio) <= criteria.equal_shapes)
-      out.push_back(with_shape(other));
+      out.push_back(with_shape(other) + std::string(same_but_for_scale(own, other) ? never_apart : ""));
   }
-  return out.empty() ? "" : fmt::format("these data cannot distinguish it from {}", fmt::join(out, ", "));
+  return out.empty() ? "" : fmt::format("{}{}", rivals_begin, fmt::join(out, ", "));
 }
 
 } // namespace gumshoe::tracing

@@ -1,5 +1,7 @@
 #pragma once
 /// Which of several shapes without a cause is there, and which others these data cannot tell from it.
+#include <string_view>
+
 #include "tracing/judgement/evidence.h"
 
 namespace gumshoe::tracing {
@@ -28,6 +30,10 @@ std::optional<Trial> lasting_in_place_of(const TraceContext& context, const Evid
 /// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
 /// takes that of errors that are zero at either end.
 bool is_one_of_several_forms(const Evidence& evidence, std::size_t shape);
+
+/// How the remark of rivals_of begins, and what follows a rival that was with the shape in every reading.
+inline constexpr std::string_view rivals_begin = "these data cannot distinguish it from ",
+                                  never_apart = " (the same in every reading)";
 
 /// "these data cannot distinguish it from ...": shapes of one size that depend on something else and describe the
 /// readings as well as `a` does: a drift with the order, or with a temperature that rose meanwhile. Empty: none.
