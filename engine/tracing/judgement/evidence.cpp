@@ -319,7 +319,11 @@ bool explains_few(const TraceContext& c, const JointFit& without, const JointFit
   const auto squares = [&](const JointFit& fit) {
     const auto use = independent(fit.design, c.fitter.rows());
     const Whitened plain(fit.design, c.fitter.rows(), use, {}), white(plain, model);
-    return Vector(white.left_over(plain.winsorised(plain.take(fit.residual))).array().square());
+    const Matrix left = plain.winsorised(plain.take(fit.residual));
+    if (model.scatter < 0) return Vector(white.left_over(left).array().square());
+    // Of groups that scatter, what their draws cost counts too, and is shared by their readings.
+    const Matrix units = white.in_units(left);
+    return Vector(units.array() * white.weighted_units(units).array());
   };
   return of_few_readings(squares(without) - squares(with), c.observations.indications);
 }
