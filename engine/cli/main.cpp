@@ -1,8 +1,12 @@
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <system_error>
+
+#include <unistd.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
@@ -23,6 +27,31 @@ int printed(int code) {
   if (std::cout && std::fflush(stdout) == 0) return code;
   std::cerr << "error: standard output cannot be written.\n";
   return static_cast<int>(gumshoe::ExitCode::bad_input);
+}
+
+/// An error that none of our code phrased. oneTBB says "pthread_create has failed" without a type of its own.
+gumshoe::Problem foreign_problem(const std::exception& error) {
+  const std::string what = error.what();
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  if ((system && system->code() == std::errc::resource_unavailable_try_again) || what.starts_with("pthread_create"))
+    return {{},
+            "no further thread can be started",
+            "a limit of processes or memory is reached",
+            "use fewer threads (--threads 1 needs no further one), or raise the limit"};
+  return {{}, what, "", ""};
+}
+
+/// An exception in a thread of oneTBB reaches no handler of ours. A run keeps the samples that its file has.
+[[noreturn]] void end_in_any_thread() {
+  try {
+    std::rethrow_exception(std::current_exception());
+  } catch (const std::exception& error) {
+    const std::string line = format(foreign_problem(error)) + '\n';
+    if (write(2, line.data(), line.size()) == static_cast<ssize_t>(line.size()))
+      _exit(static_cast<int>(gumshoe::ExitCode::bad_input));
+  } catch (...) {
+  }
+  std::abort();
 }
 
 int command_line(int argc, char** argv) {
@@ -79,7 +108,7 @@ int command_line(int argc, char** argv) {
     if (interrupted()) return interrupted_exit(); // a signal reached a program that we wait for, too
     std::cerr << error.what() << '\n';
   } catch (const std::exception& error) {
-    std::cerr << format({{}, error.what(), "", ""}) << '\n';
+    std::cerr << format(foreign_problem(error)) << '\n';
   }
   return static_cast<int>(ExitCode::bad_input);
 }
@@ -87,6 +116,7 @@ int command_line(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) try {
+  std::set_terminate(end_in_any_thread);
   gumshoe::prefer_large_pages_of_heap();
   std::signal(SIGXFSZ, SIG_IGN); // a file-size limit becomes a write error with a message
   return command_line(argc, argv);

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <system_error>
 #include <thread>
 
 #include <fmt/format.h>
@@ -175,9 +176,13 @@ std::optional<std::string> Ranks::awaited() {
 }
 
 void Ranks::serve(const Service& service, int threads) {
-  transport_->send(0, control_tag, good_reply + std::to_string(threads));
   std::vector<std::jthread> workers;
-  for (int t = 0; t < threads; ++t) workers.emplace_back([&, t] { answer(service, first_thread_tag + t); });
+  try {
+    for (int t = 0; t < threads; ++t) workers.emplace_back([&, t] { answer(service, first_thread_tag + t); });
+  } catch (const std::system_error&) { // no further thread can be started: rank 0 hears of those that there are
+    if (workers.empty()) throw;
+  }
+  transport_->send(0, control_tag, good_reply + std::to_string(workers.size()));
 }
 
 void Ranks::answer(const Service& service, int tag) {
