@@ -38,6 +38,7 @@ std::vector<NamedResult> read_all(const std::vector<std::string>& files) {
     if (!identity.has_outputs())
       throw InputError(file + ": holds no result to combine", fmt::format("gumshoe {} wrote it", identity.command),
                        "name results of gumshoe run");
+    store::require_sound_samples(file);
     const auto [first, fresh] = scenarios.try_emplace(identity.scenario_hash, file);
     if (!fresh)
       throw InputError(fmt::format("{} and {} are one measurement", first->second, file),

@@ -36,6 +36,7 @@ store::Identity comparable(const std::string& path) {
   if (!identity.has_outputs() && identity.command != "trace")
     throw InputError(path + ": holds no result to compare", fmt::format("gumshoe {} wrote it", identity.command),
                      "compare results of gumshoe run, or of gumshoe trace");
+  store::require_sound_samples(path);
   return identity;
 }
 

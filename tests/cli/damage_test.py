@@ -71,6 +71,22 @@ class Damage(InFolder):
                     with h5py.File(path) as a, h5py.File(whole) as b:
                         np.testing.assert_array_equal(a["outputs/laser_z"][()], b["outputs/laser_z"][()])
 
+    def test_results_are_compared_and_combined_only_if_their_samples_are_sound(self):
+        whole = self.complete()
+        (self.folder / "other.toml").write_text(SCENARIO.replace('u = "1 um"', 'u = "2 um"'))
+        other = self.folder / "other.h5"
+        self.assertEqual(gumshoe("run", self.folder / "other.toml", "--samples", 3000, "--out", other).returncode, 0)
+        damaged = shutil.copy(whole, self.folder / "damaged.h5")
+        with h5py.File(whole) as file:
+            change(damaged, file["outputs/laser_z"].id.get_offset() + 8 * 1234 + 5, 4)
+        for command in (["compare"], ["compare", "--same", "beam_pitch"], ["combine"]):
+            for results in ([damaged, other], [other, damaged]):
+                with self.subTest(command, first=results[0].name):
+                    run = gumshoe(*command, *results)
+                    self.assertIsNone(complaint(run), run.stdout)
+                    self.assertIn("damaged.h5' is damaged (its samples are damaged from number 0 on)", run.stderr)
+            self.assertEqual(gumshoe(*command, whole, other).returncode, 0)
+
     def test_a_changed_marker_is_noticed(self):
         path = self.complete()
         change(path, record(path)["places"]["samples_done"][0] + 7, 64)
