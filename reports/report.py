@@ -19,12 +19,14 @@ def main():
     parser.add_argument("--page-only", action="store_true", help="no CSV tables, no list of what was written")
     parser.add_argument("--force", action="store_true", help="replace files that another scenario or program wrote")
     arguments = parser.parse_args()
+    sys.stdout.reconfigure(errors="surrogateescape")  # names of files as they are
+    sys.stderr.reconfigure(errors="surrogateescape")
     out = arguments.out or arguments.result.with_suffix(".html")
     folder = arguments.csv or out.parent
     try:
         result = read.result(arguments.result)
         tables = {} if arguments.page_only else csv_tables.files(result, folder, out.stem)
-        written = {out: f"{page.render(result)}<!-- {output.signature(result)} -->\n".encode("utf-8"), **tables}
+        written = {out: f"{page.render(result)}<!-- {output.signature(result)} -->\n".encode("utf-8", "replace"), **tables}
         if tables:
             folder.mkdir(parents=True, exist_ok=True)
         with output.Claim(out):

@@ -12,6 +12,9 @@ class NotAResult(Exception):
 
 
 def plain(value):
+    """Texts with U+FFFD for what is not UTF-8 (a file may have such a name); numbers as those of Python."""
+    if isinstance(value, str):  # as h5py decodes it
+        value = value.encode("utf-8", "surrogateescape")
     if isinstance(value, bytes):
         return value.decode("utf-8", "replace")
     return value.item() if isinstance(value, np.generic) else value

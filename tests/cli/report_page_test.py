@@ -5,6 +5,8 @@ usage: report_page_test.py path/to/gumshoe [unittest options]
 import base64
 import csv
 import math
+import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -240,6 +242,28 @@ class Curve(InOneFolder):
         for model, hidden in (("tool_length", True), ("expression", False)):
             found = tables.numbered(types.SimpleNamespace(model=model, outputs=outputs))
             self.assertEqual((bool(found.hidden), bool(found.flags), len(found.rows)), (hidden, hidden, 2))
+
+
+class Names(InOneFolder):
+    def test_names_that_are_not_utf_8(self):
+        folder = os.fsencode(self.folder)
+        for name in (b"\xff\xfe", b"caf\xe9"):
+            with self.subTest(name):
+                stem = os.path.join(folder, name)
+                shutil.copy(ROOT / "scenarios/expression.toml", stem + b".toml")
+                for words in ([b"run", stem + b".toml", b"--samples", b"1000", b"--out", stem + b".h5"], [b"report", stem + b".h5"]):
+                    run = subprocess.run([GUMSHOE, *words], cwd=ROOT, capture_output=True)
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertIn(name + b".html", run.stdout)
+                page_text = pathlib.Path(os.fsdecode(stem + b".html")).read_bytes().decode("utf-8")
+                self.assertIn(name.decode("utf-8", "replace") + ".toml", page_text)
+                again = subprocess.run([GUMSHOE, b"report", stem + b".h5"], cwd=ROOT, capture_output=True)
+                self.assertEqual(again.returncode, 0, again.stderr)
+                shutil.copy(stem + b".h5", self.folder / "plain.h5")
+                plain = subprocess.run([GUMSHOE, "report", self.folder / "plain.h5", "--force"], cwd=ROOT, capture_output=True)
+                self.assertEqual(plain.returncode, 0, plain.stderr)
+        for table in self.folder.glob("*.csv"):
+            table.read_bytes().decode("utf-8")
 
 
 class Question(unittest.TestCase):
