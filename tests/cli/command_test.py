@@ -188,6 +188,7 @@ for line in sys.stdin:
             "answer([1, 2])\n": ["it wrote 2 rows for 1 points"],
             "answer([1], 'volume (mm3)')\n": ["no column 'area'"],
             "answer([1], 'area (mm3)')\n": ["its column area", "mm3"],
+            "answer(['1,2'], 'area (mm2),area (mm2)')\n": ["its output has two columns 'area'", "'area (mm2),area (mm2)'"],
             "answer([1], 'area (foo)')\n": ["'foo' is not a unit"],
             "answer(['1,2'])\n": ["line 2 of its output has 2 cells, but the header has 1"],
             "sys.stdout.buffer.write(bytes(range(256)) * 10)\n": ["no column 'area'"],

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ struct ResultColumn {
 
 ResultColumn find_column(const VariableCard& measurand, const std::vector<std::string_view>& header,
                          std::string_view line) {
+  std::optional<ResultColumn> found;
   for (std::size_t i = 0; i < header.size(); ++i) {
     std::string_view name = header[i], unit = measurand.unit;
     if (const auto open = name.find('('); open != std::string_view::npos && name.back() == ')') {
@@ -68,14 +70,18 @@ ResultColumn find_column(const VariableCard& measurand, const std::vector<std::s
       name = trimmed(name.substr(0, open));
     }
     if (name != measurand.name) continue;
+    if (found)
+      throw InputError(fmt::format("its output has two columns '{}'", measurand.name),
+                       fmt::format("the first line is '{}'", shown(line)), "write each measurand once");
     try {
       units::to_si(1, std::string(unit), std::string(measurand.si_unit));
     } catch (const InputError& error) {
       const Problem& p = error.problems().front();
       throw InputError(fmt::format("its column {}: {}", measurand.name, p.what), p.why, p.remedy);
     }
-    return {i, std::string(unit)};
+    found = ResultColumn{i, std::string(unit)};
   }
+  if (found) return *found;
   throw InputError(fmt::format("its output has no column '{}'", measurand.name),
                    fmt::format("the first line is '{}'", shown(line)),
                    fmt::format("write a header with {} ({})", measurand.name, measurand.unit));
