@@ -2,6 +2,8 @@
 
 usage: plugin_test.py path/to/gumshoe [unittest options]
 """
+import csv
+import json
 import os
 import re
 import shutil
@@ -12,7 +14,7 @@ os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"
 import h5py
 import numpy as np
 
-from program import ROOT, InFolder, complaint, gumshoe, places
+from program import GUMSHOE, ROOT, InFolder, complaint, gumshoe, places
 
 HEADER = ROOT / "engine/models/plugin"
 CC = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
@@ -148,6 +150,26 @@ class Plugin(InFolder):
         self.assertIn("feed 0.001 m/s (60 mm/min)", check.stdout)
         report = gumshoe("report", self.folder / "1.h5", "--out", self.folder / "report.html")
         self.assertEqual(report.returncode, 0, report.stderr)
+
+    def test_what_it_prints_goes_to_standard_error(self):
+        loading = PLUGIN + '__attribute__((constructor)) static void loaded(void) { printf("loaded\\n"); }\n'
+        self.build('-DFAULT=printf("printed\\n"); (void)!write(1, "written\\n", 8);', code=loading)
+        for threads in (1, 3):
+            for form in ("json", "csv"):
+                with self.subTest(form, threads=threads):
+                    run = self.run_it("r.h5", "--threads", threads, "--format", form, "--force")
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                    for word in ("loaded", "printed", "written"):
+                        self.assertNotIn(word, run.stdout)
+                        self.assertIn(word, run.stderr)
+                    if form == "json":
+                        self.assertEqual(len(json.loads(run.stdout)), 1)
+                    else:
+                        self.assertEqual(len(list(csv.DictReader(run.stdout.splitlines()))), 1)
+        with open("/dev/full", "w") as full:  # a full standard error is no error of the command
+            run = subprocess.run([GUMSHOE, "run", self.scenario, "--out", self.folder / "f.h5", "--format", "json"], stderr=full,
+                                 stdout=subprocess.PIPE, text=True)
+        self.assertEqual((run.returncode, len(json.loads(run.stdout))), (0, 1))
 
     def test_a_plugin_that_wants_one_call_at_a_time(self):
         self.build("-DTHREADS=0")

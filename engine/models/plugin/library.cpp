@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "models/model.h"
 #include "models/plugin/crash_guard.h"
+#include "models/plugin/diverted_output.h"
 
 namespace gumshoe::models {
 
@@ -31,6 +32,7 @@ const gumshoe_model& open_library(const std::string& path, const PluginPlace& pl
   const std::string start = place.crashed();
   // Without a slash the loader would search its own folders.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
+  const DivertedOutput diverted;
   const CrashGuard guard(start, unnumbered, 0); // a library runs code when it is loaded
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {

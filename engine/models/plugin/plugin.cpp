@@ -6,6 +6,7 @@
 
 #include "models/made_card.h"
 #include "models/plugin/crash_guard.h"
+#include "models/plugin/diverted_output.h"
 #include "models/plugin/library.h"
 #include "models/shown_columns.h"
 
@@ -37,6 +38,7 @@ void guarded(const Plugin& p, int (*function)(const gumshoe_batch*), const gumsh
   int code = 0;
   bool threw = false;
   {
+    const DivertedOutput diverted;
     const CrashGuard guard(p.crash_start, first_sample, batch.samples);
     try {
       code = function(&batch);
