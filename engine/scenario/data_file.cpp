@@ -113,9 +113,12 @@ int find_column(Table& table, const std::string& key, const Csv& csv) {
 std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const std::string& column,
                                 const std::string& unit, const Dimension& dimension, Problems& problems) {
   try {
-    return units::to_si(file.csv->number(cell, file.decimal), unit, dimension.si_unit, dimension.kind);
+    const double number = file.csv->number(cell, file.decimal);
+    require_possible_temperature(number, unit, dimension);
+    return units::to_si(number, unit, dimension.si_unit, dimension.kind);
   } catch (const InputError& error) {
     for (Problem p : error.problems()) {
+      if (p.where.line == 0) p.where = file.csv->at(cell);
       p.why = fmt::format("column '{}'{}{}", column, p.why.empty() ? "" : ": ", p.why);
       problems.add(std::move(p));
     }

@@ -103,6 +103,14 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return all.size() <= 500 ? all : std::string{}; // a list that nobody would read
 }
 
+void require_possible_temperature(double number, const std::string& unit, const Dimension& dimension) {
+  if (dimension.si_unit != "K" || dimension.kind != units::Kind::point || !units::convertible(unit, "K")) return;
+  if (units::to_si(0, unit, "K") == 0 || units::to_si(number, unit, "K") >= 0) return;
+  throw InputError(fmt::format("{} {} is below absolute zero", number, unit),
+                   fmt::format("{:.6g} {}", units::from_si(0, unit, "K"), unit),
+                   "correct the sign or the unit, or state a difference of temperatures in K");
+}
+
 std::optional<double> read_measure(const Node& node, const std::string& path, const Dimension& dimension,
                                    Problems& problems) {
   const std::string kind = units::kind_name(dimension.si_unit);
@@ -125,6 +133,7 @@ std::optional<double> read_measure(const Node& node, const std::string& path, co
   }
   try {
     const units::Measure measure = units::parse(node.text);
+    require_possible_temperature(measure.number, measure.unit, dimension);
     return units::to_si(measure.number, measure.unit, dimension.si_unit, dimension.kind);
   } catch (const InputError& error) {
     Problem p = error.problems().front();

@@ -52,6 +52,10 @@ struct Dimension {
   units::Kind kind = units::Kind::point;
 };
 
+/// Throws InputError where the number in degC or degF is a temperature below absolute zero. In K it may be a
+/// difference.
+void require_possible_temperature(double number, const std::string& unit, const Dimension& dimension);
+
 /// A value as text with unit or bare number; nullopt and a problem if it is not.
 std::optional<double> read_measure(const Node& node, const std::string& path, const Dimension& dimension,
                                    Problems& problems);
