@@ -108,7 +108,7 @@ void add_analyse(CLI::App& app, Action& action) {
   command->add_option("-o,--out", o->out, "new result file (default: RESULT.analysed.h5)");
   add_force(*command, o->force);
   add_external(*command);
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   add_print(*command, o->print);
   command->callback([=, &action] { action = [=] { return analyse(*o); }; });
 }

@@ -54,7 +54,7 @@ void add_choose(CLI::App& app, Action& action) {
   command->add_option("scenario", o->file, "scenario file (TOML) with [choose]")->required();
   command->add_option("--samples", o->request.samples, "samples per candidate, instead of the scenario's, e.g. 1e4");
   command->add_option("--seed", o->request.seed, "instead of the scenario's");
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   auto* shard = command->add_option("--shard", o->shard,
                                     "3/16: the third of sixteen parts of the coarse grid, for gumshoe merge");
   command->add_option("-o,--out", o->out, "result file (default: results/SCENARIO.choose.h5)");

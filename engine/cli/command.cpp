@@ -1,5 +1,6 @@
 #include "cli/command.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -47,7 +48,7 @@ scenario::Catalogue catalogue() {
 }
 
 std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least,
-                           const std::string& example) {
+                           const std::string& example, std::uint64_t most) {
   std::size_t used = 0;
   double x = -1;
   try {
@@ -55,9 +56,10 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
   } catch (const std::exception&) {
     used = 0;
   }
-  if (used == 0 || used != text.size() || !(x >= static_cast<double>(least)) || x > 1e15 || x != std::floor(x))
-    throw InputError(option + ": '" + text + "' is not a whole number of at least " + std::to_string(least) +
-                         (x > 1e15 ? " and at most 1e15" : ""),
+  const bool large = x > static_cast<double>(most);
+  if (used == 0 || used != text.size() || !(x >= static_cast<double>(least)) || large || x != std::floor(x))
+    throw InputError(fmt::format("{}: '{}' is not a whole number of at least {}{}", option, text, least,
+                                 large ? fmt::format(" and at most {}", most) : ""),
                      "", "write a number such as " + example);
   return static_cast<std::uint64_t>(x);
 }
@@ -92,6 +94,18 @@ std::string default_output(const std::string& scenario, const std::string& endin
 void add_external(CLI::App& command) {
   command.add_flag("--allow-external", external_allowed,
                    "let a scenario of another user start its command or load its plugin, with your rights");
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  static constexpr int most = 1024;
+  const auto whole = [](const std::string& text) -> std::string {
+    int n = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error == std::errc() && end == text.data() + text.size() && n >= 0 && n <= most) return {};
+    return fmt::format("'{}' is not a whole number from 0 to {}", text, most);
+  };
+  command.add_option("--threads", threads, "0: all processors")
+      ->check(CLI::Validator(whole, fmt::format("INT in [0 - {}]", most)));
 }
 
 void add_force(CLI::App& command, bool& force) {

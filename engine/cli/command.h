@@ -46,9 +46,9 @@ void refuse_empty_words(const CLI::App& command);
 /// Models and effects as the scenario parser wants them.
 scenario::Catalogue catalogue();
 
-/// "1e6" or "1000000" as a whole number of at least `least`; throws InputError naming the option.
+/// "1e6" or "1000000" as a whole number of at least `least` and at most `most`; throws InputError naming the option.
 std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least,
-                           const std::string& example);
+                           const std::string& example, std::uint64_t most = 1'000'000'000'000'000);
 
 /// Writes a table as text. It carries no mark: only an equal one is known to be ours, and another is replaced by force.
 void write_table(const std::string& path, const std::string& text, bool force);
@@ -63,6 +63,9 @@ std::string default_output(const std::string& scenario, const std::string& endin
 /// The option --allow-external, without which a scenario of another user starts no program and loads no library, unless
 /// the environment's GUMSHOE_TRUSTED names a folder that it is in.
 void add_external(CLI::App& command);
+
+/// The option --threads.
+void add_threads(CLI::App& command, int& threads);
 
 /// The option --force.
 void add_force(CLI::App& command, bool& force);

@@ -224,7 +224,7 @@ void add_estimate(CLI::App& app, Action& action) {
                       "scenario file for the estimates (default: results/SCENARIO.estimated.toml)");
   add_force(*command, o->force);
   add_external(*command);
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return estimate(*o); }; });
 }

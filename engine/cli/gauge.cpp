@@ -210,7 +210,7 @@ void add_gauge(CLI::App& app, Action& action) {
   };
   const auto o = std::make_shared<Options>();
   command->add_option("examples", o->files, "scenario files or folders (default: those shipped with the program)");
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return gauge(o->files, o->threads, o->format == "json"); }; });
 }

@@ -88,7 +88,7 @@ void add_merge(CLI::App& app, Action& action) {
   command->add_option("--scenario", o->scenario, "instead of the place that the shards name; the same scenario");
   command->add_option("-o,--out", o->out,
                       "result file (default: results/SCENARIO.h5, of a choice results/SCENARIO.choose.h5)");
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   add_force(*command, o->force);
   add_external(*command);
   add_print(*command, o->print);

@@ -49,7 +49,7 @@ void add_plan(CLI::App& app, Action& action) {
   add_external(*command);
   command->add_option("--verify", o->verify, "simulated data sets of each effect, on which gumshoe trace is tried")
       ->check(CLI::Range(0, 10'000));
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   command->add_option("--format", o->format, "text, csv (the table) or json")
       ->check(CLI::IsMember({"text", "csv", "json"}));
   command->callback([=, &action] { action = [=] { return plan(*o); }; });

@@ -10,6 +10,7 @@
 #include "analysis/selection.h"
 #include "cli/command.h"
 #include "propagation/propagate.h"
+#include "scenario/option.h"
 
 namespace gumshoe::cli {
 
@@ -21,7 +22,9 @@ std::string adaptive_text(const scenario::Adaptive& a) {
   return fmt::format("{} {} {}", name(a.rule), a.digits, a.most);
 }
 
-std::uint64_t samples_of(const RunRequest& r) { return whole_number(*r.samples, "--samples", 2, "1e6"); }
+std::uint64_t samples_of(const RunRequest& r) {
+  return whole_number(*r.samples, "--samples", 2, "1e6", scenario::option::largest_whole);
+}
 std::uint64_t seed_of(const RunRequest& r) { return whole_number(*r.seed, "--seed", 0, "1"); }
 
 /// A scenario that measures nothing is asked for its readings. They may be many: as many samples as fit in 400 MB.

@@ -160,7 +160,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("scenario", o->file, "scenario file (TOML)")->required();
   command->add_option("--samples", o->request.samples, "instead of the scenario's, e.g. 1e6");
   command->add_option("--seed", o->request.seed, "instead of the scenario's");
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   auto* shard =
       command->add_option("--shard", o->shard, "3/16: the third of sixteen parts of the work, for gumshoe merge");
   command->add_option("-o,--out", o->out, "result file (default: results/SCENARIO.h5)");

@@ -89,7 +89,7 @@ void add_volume(CLI::App& app, Action& action) {
   command->add_option("--samples", o->samples, "instead of the scenario's, e.g. 1e4");
   command->add_option("--seed", o->seed, "instead of the scenario's");
   command->add_option("-o,--out", o->out, "result file (default: results/NAME.volume.h5)");
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   add_force(*command, o->force);
   add_external(*command);
