@@ -112,7 +112,8 @@ ExitCode trace(const TraceOptions& o) {
   close_loop(s, rounds.text, outputs, draft, budgets);
   store::write_trace(draft, outputs.result, s, card, rounds.first, budgets, rounds.table);
   std::vector<std::string> written{out};
-  if (history) history.append(rounds.first, draft);
+  store::Draft with_report; // a history that has these readings refuses them, so that it appears last
+  if (history) history.append(rounds.first, o.report.empty() ? draft : with_report);
   const std::string verdict = signed_verdict(rounds, history, outputs.origin);
   if (!o.json.empty()) {
     draft.add(outputs.json, verdict);
@@ -121,7 +122,9 @@ ExitCode trace(const TraceOptions& o) {
   draft.publish();
   ExitCode code = ExitCode::done;
   if (!o.report.empty()) {
-    when_interrupted("The result is written, its report is not: gumshoe report makes it.");
+    when_interrupted(history ? "The result is written, its report is not, and nothing is appended. The same command "
+                               "starts from the beginning."
+                             : "The result is written, its report is not: gumshoe report makes it.");
     { const store::Claim done = std::move(outputs.report); } // the generator claims it
     code = generate({out, "--out", o.report, "--page-only", "--force"});
     if (code == ExitCode::done)
@@ -129,6 +132,7 @@ ExitCode trace(const TraceOptions& o) {
     else
       std::cerr << fmt::format("the result is written, its report is not: gumshoe report {} --out {} makes it\n", out,
                                o.report);
+    with_report.publish();
   }
   if (o.format == "json")
     std::cout << verdict;
@@ -156,7 +160,7 @@ void add_trace(CLI::App& app, Action& action) {
   command->add_option("--loop", o->loop, "traces again what was written, until nothing is added, at most so many times")
       ->check(CLI::Range(1, 20));
   command->add_option("--append", o->history, "history file, to which the evidence of these readings is added");
-  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  add_threads(*command, o->threads);
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return trace(*o); }; });
 }

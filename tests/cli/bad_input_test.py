@@ -3,14 +3,16 @@
 usage: bad_input_test.py path/to/gumshoe [unittest options]
 """
 import os
+import pathlib
 import random
 import resource
+import shutil
 import subprocess
 import unittest
 
 import h5py
 
-from program import SCENARIO, InOneFolder, complaint, gumshoe, places
+from program import GUMSHOE, SCENARIO, InOneFolder, complaint, gumshoe, places
 
 
 def swap(old, new):
@@ -255,6 +257,37 @@ class BadInput(InOneFolder):
                 with self.subTest(name, command=command[0]):
                     self.refused(gumshoe(*command), [str(path), *words])
 
+    def test_temperatures_below_absolute_zero(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "length * (1 + alpha * (temperature - reference))"
+[quantities]
+length = { value = "1 m", u = "1 um" }
+alpha = "11 um/m/K"
+reference = "20 degC"
+temperature = VALUE
+"""
+        path = self.folder / "cold.toml"
+        for value, wrong in (('"-400 degC"', "-400 degC is below absolute zero (-273.15 degC)"),
+                             ('{ value = "-273.16 degC", u = "0.1 K" }', "-273.16 degC is below"),
+                             ('{ distribution = "rectangular", low = "-300 degC", high = "20 degC" }', "-300 degC is below"),
+                             ('"-500 degF"', "-500 degF is below absolute zero (-459.67 degF)"),
+                             ('"-273.15 degC"', ""), ('"-400 K"', ""),
+                             ('{ value = "20 degC", components = [{ distribution = "rectangular", half_width = "300 degC" }] }', "")):
+            with self.subTest(value):
+                path.write_text(text.replace("VALUE", value))
+                run = gumshoe("check", path)
+                if wrong:
+                    self.refused(run, ["cold.toml:10:", "quantities.temperature", wrong])
+                else:  # in K it may be a difference
+                    self.assertEqual(run.returncode, 0, run.stderr)
+        self.write("cold.csv", "t\n20\n-400\n")
+        path.write_text(text.replace("temperature = VALUE\n", "") +
+                        '[indications.temperature]\nreadings = { file = "cold.csv", column = "t", unit = "degC" }\n')
+        self.refused(gumshoe("check", path), ["cold.csv:3:1: error:", "-400 degC is below absolute zero"])
+
     def test_result_whose_scenario_has_changed(self):
         path, result = self.write("changing.toml", SCENARIO), self.folder / "changing.h5"
         self.assertEqual(gumshoe("run", path, "--samples", 1000, "--out", result).returncode, 0)
@@ -284,7 +317,9 @@ class BadInput(InOneFolder):
         for name, (command, words) in {
             **{f"--samples {n}": ([*run, "--samples", n], ["--samples"]) for n in ("0", "-5", "abc", "1.5", "1", "", "nan", "1e30", "1e6x")},
             **{f"--seed {n}": ([*run, "--seed", n], ["--seed"]) for n in ("-1", "abc", "1.5", "")},
-            **{f"--threads {n}": ([*run, "--threads", n], ["--threads"]) for n in ("-1", "abc", "1.5")},
+            **{f"--threads {n}": ([*run, "--threads", n], ["--threads", f"'{n}' is not a whole number from 0 to 1024"])
+               for n in ("-1", "abc", "1.5", "1025", "")},
+            "too many samples": ([*run, "--samples", "1e13"], ["--samples", "at most 1099511627776"]),
             "--format": ([*run, "--format", "xml"], ["xml"]),
             "unknown option": ([*run, "--sampels", "5"], ["--sampels"]),
             "unknown short option": ([*run, "-x", "5"], ["unknown option '-x' of gumshoe run", "--help"]),
@@ -373,6 +408,29 @@ class BadInput(InOneFolder):
         self.assertEqual(self.result.read_bytes(), older)
         table = self.folder / "limited.csv"
         self.refused(gumshoe("evaluate", "rod_gauging", "--table", long, "--out", table, preexec_fn=limit), [str(table)])
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can become another user, whose processes are limited")
+    def test_limit_on_threads(self):
+        def limit(most):
+            nobody = 65534
+            resource.setrlimit(resource.RLIMIT_NPROC, (most, most))
+            os.setgroups([])
+            os.setgid(nobody)
+            os.setuid(nobody)
+
+        self.folder.chmod(0o777)
+        program = pathlib.Path(shutil.copy(GUMSHOE, self.folder / "gumshoe"))  # nobody may not enter every folder
+        program.chmod(0o755)
+        self.good.chmod(0o644)
+        for most, threads in ((1, 8), (2, 8), (3, 8), (5, 8), (1, 1)):
+            out = self.folder / f"threads{most}-{threads}.h5"
+            with self.subTest(limit=most, threads=threads):
+                run = gumshoe("run", self.good, "--samples", 100_000, "--threads", threads, "--out", out,
+                              executable=program, preexec_fn=lambda: limit(most))
+                if threads == 1:
+                    self.assertEqual(run.returncode, 0, run.stderr)
+                else:
+                    self.refused(run, ["no further thread can be started", "--threads 1"])
 
     @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small disk")
     def test_full_disk(self):

@@ -151,6 +151,41 @@ class Interrupt(InFolder):
         self.assertLess(seconds, LIMIT + SLACK)
         self.assertTrue(self.gone(int((self.folder / "pid").read_text())))
 
+    def test_a_history_has_the_readings_only_after_the_report(self):
+        scenarios = self.folder / "scenarios"
+        (scenarios / "data").mkdir(parents=True)
+        for name in ("trace_linear_axis.toml", "data/linear_axis.csv"):
+            shutil.copy(ROOT / "scenarios" / name, scenarios / name)
+        (self.folder / "report.py").write_text("import os, time\nopen('pid', 'w').write(str(os.getpid()))\ntime.sleep(60)\n")
+        pid, history, page = (self.folder / name for name in ("pid", "history.h5", "page.html"))
+        words = ["trace", scenarios / "trace_linear_axis.toml", "--draws", "19", "--out", "t.h5", "--append", history, "--report", page]
+        hanging = {**os.environ, "GUMSHOE_REPORTS": str(self.folder)}
+        _, said = self.interrupted(words, signal.SIGTERM, pid.exists, 0.2, env=hanging)
+        self.assertIn("nothing is appended. The same command starts from the beginning.", said)
+        self.assertFalse(history.exists())
+        pid.unlink()
+        process = subprocess.Popen([GUMSHOE, *map(str, words)], cwd=self.folder, stderr=subprocess.DEVNULL, env=hanging)
+        while not pid.exists():
+            time.sleep(0.02)
+        process.kill()
+        process.wait()
+        self.assertFalse(history.exists())
+        for code in (0, 2):  # the same command again, and once more: a campaign counts once
+            run = subprocess.run([GUMSHOE, *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(run.returncode, code, run.stderr)
+            self.assertTrue(history.exists() and page.exists())
+        self.assertIn("holds these readings already", run.stderr)
+        self.assertEqual([f.name for f in self.folder.glob("*gumshoe*")], [], "files are left over")
+
+    def test_a_history_is_kept_where_the_report_fails(self):
+        (self.folder / "report.py").write_text("raise SystemExit(2)\n")
+        run = subprocess.run([GUMSHOE, "trace", ROOT / "scenarios/trace_linear_axis.toml", "--draws", "19", "--out", "t.h5",
+                              "--append", "history.h5", "--report", "page.html"], cwd=self.folder, capture_output=True,
+                             text=True, env={**os.environ, "GUMSHOE_REPORTS": str(self.folder)})
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn("gumshoe report t.h5 --out page.html makes it", run.stderr)
+        self.assertTrue((self.folder / "history.h5").exists())
+
 
 if __name__ == "__main__":
     unittest.main()
