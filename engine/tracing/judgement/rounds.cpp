@@ -298,7 +298,8 @@ private:
         continue;
       }
       if (evidence_->predicts_better(fit, Judged::as_declared)) {
-        if (!take_of_equal_merit(a, score)) add_shape(a, fit, assessment.p_signature, rivals_of(*evidence_, a, tried));
+        if (!take_of_equal_merit(a, score))
+          add_shape(a, fit, assessment.p_signature, rivals_of(c_, *evidence_, a, tried));
         return true;
       }
       described.emplace_back(a, std::move(fit));
@@ -306,7 +307,7 @@ private:
     // A term that predicts other blocks goes before one that describes them, such as a curve in time.
     for (auto& [a, fit] : described) {
       if (evidence_->predicts_better(fit, Judged::given_the_others)) {
-        add_shape(a, fit, assessment.p_signature, rivals_of(*evidence_, a, tried));
+        add_shape(a, fit, assessment.p_signature, rivals_of(c_, *evidence_, a, tried));
         return true;
       }
       outcomes_[a] = not_predicted;

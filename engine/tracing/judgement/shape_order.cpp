@@ -200,25 +200,36 @@ bool is_one_of_several_forms(const Evidence& e, std::size_t a) {
 
 namespace {
 
-/// Whether two signatures rise and fall together in all readings, those of the hold-out blocks among them.
-bool same_but_for_scale(const Candidate& a, const Candidate& b) {
+/// Cosine of two signatures about their means, in all readings, those of the hold-out blocks among them.
+double cosine(const Candidate& a, const Candidate& b) {
   const Vector x = a.columns.col(0).array() - a.columns.col(0).mean(),
                y = b.columns.col(0).array() - b.columns.col(0).mean();
-  constexpr double rounding = 1e-9;
-  return x.dot(y) >= (1 - rounding) * x.norm() * y.norm();
+  return x.dot(y) / (x.norm() * y.norm());
+}
+
+constexpr double collinear = 1 - 1e-9; // but for rounding
+
+/// Whether a shape is of the blocks, one of which differs.
+bool of_blocks(const TraceContext& c, const Candidate& a) {
+  return a.depends_on == std::vector<std::string>{c.observations.blocks.name};
 }
 
 } // namespace
 
-std::string rivals_of(const Evidence& e, std::size_t a, const std::vector<Trial>& tried) {
+std::string rivals_of(const TraceContext& c, const Evidence& e, std::size_t a, const std::vector<Trial>& tried) {
   const Candidate& own = e.candidates()[a];
   const double ratio = std::ranges::find(tried, a, &Trial::candidate)->ratio;
   std::vector<std::string> out;
   for (const Trial& t : tried) {
     const Candidate& other = e.candidates()[t.candidate];
-    if (t.candidate != a && own.columns.cols() == 1 && other.columns.cols() == 1 &&
-        other.depends_on != own.depends_on && std::fabs(t.ratio - ratio) <= criteria.equal_shapes)
-      out.push_back(with_shape(other) + std::string(same_but_for_scale(own, other) ? never_apart : ""));
+    if (t.candidate == a || own.columns.cols() != 1 || other.columns.cols() != 1 ||
+        other.depends_on == own.depends_on || !(std::fabs(t.ratio - ratio) <= criteria.equal_shapes))
+      continue;
+    const double alike = cosine(own, other);
+    const bool edge = (of_blocks(c, own) && is_lasting_step(other, c.observations)) ||
+                      (of_blocks(c, other) && is_lasting_step(own, c.observations));
+    if (edge && std::fabs(alike) >= collinear) continue;
+    out.push_back(with_shape(other) + std::string(alike >= collinear ? never_apart : ""));
   }
   return out.empty() ? "" : fmt::format("{}{}", rivals_begin, fmt::join(out, ", "));
 }

@@ -37,6 +37,8 @@ inline constexpr std::string_view rivals_begin = "these data cannot distinguish 
 
 /// "these data cannot distinguish it from ...": shapes of one size that depend on something else and describe the
 /// readings as well as `a` does: a drift with the order, or with a temperature that rose meanwhile. Empty: none.
-std::string rivals_of(const Evidence& evidence, std::size_t a, const std::vector<Trial>& tried);
+/// A step in time at the edge of the block that differs says the same, and is no rival.
+std::string rivals_of(const TraceContext& context, const Evidence& evidence, std::size_t a,
+                      const std::vector<Trial>& tried);
 
 } // namespace gumshoe::tracing
