@@ -171,7 +171,7 @@ offset = "0 um"
     def test_what_a_reading_contains(self):
         # Travel 0.4 m from the datum, 90 min; by hand, and with the sign by which each is subtracted.
         at = {"position": 500, "datum": 100, "direction": -1, "time": 90, "deviation": 10}
-        for more, error in (({"reference_scale": 3}, 1.2), ({"reference_drift": 2}, 3), ({"dead_path": 300, "wavelength_change": 0.5}, 0.15),
+        for more, error in (({"reference_scale": 3}, 1.2), ({"reference_drift": 2}, 3), ({"dead_path": 300, "wavelength_change": 0.5}, -0.15),
                             ({"misalignment": 2}, 400e3 * (math.cos(2e-3) - 1)), ({"expansion": 10, "temperature_difference": 2}, 8),
                             ({"expansion": 10, "temperature_difference": 2, "compensated": 20}, 0),
                             ({"axis_reversal__backlash": 5}, 2.5), ({"axis_reversal_slope__slope": 5}, 1),
@@ -181,6 +181,26 @@ offset = "0 um"
                             ({"axis_scale_drift__rate": 5}, 3), ({"temperature": 23, "axis_expansion__coefficient": 5}, 6),
                             ({"pitch_angle": 20, "axis_abbe_error__offset": 100}, 2)):
             self.assertAlmostEqual(self.corrected(**at, **more), 10 - error, delta=1e-9, msg=more)
+
+    def test_a_longer_wave_on_the_dead_path_counts_fewer_fringes(self):
+        """Counted: half waves between the zero at the datum and the target, of a HeNe laser whose wave in air grows
+        meanwhile. An axis without error is indicated short by the dead path times the growth, and is corrected to zero."""
+        at_zero, dead, travel, growth = 632.8e-9, 0.3, 0.4, 2e-6
+        now = at_zero * (1 + growth)
+        fringes = 2 * (dead + travel) / now - 2 * dead / at_zero
+        deviation = (fringes * now / 2 - travel) * 1e6  # the control knows the wave in air, um
+        self.assertAlmostEqual(deviation, -0.6, delta=1e-6)
+        at = {"position": 500, "datum": 100, "direction": 1, "dead_path": dead * 1e3, "wavelength_change": growth * 1e6}
+        self.assertAlmostEqual(self.corrected(deviation=deviation, **at), 0, delta=1e-6)
+        uncompensated = (fringes * at_zero / 2 - travel) * 1e6
+        self.assertAlmostEqual(self.corrected(deviation=uncompensated, reference_scale=-growth * 1e6, **at), 0,
+                               delta=2 * growth * growth * (dead + travel) * 1e6 + 1e-6)  # the second order
+        (self.folder / "v.toml").write_text('schema = 1\n[model]\nname = "linear_axis"\nmethod = "virtual_experiment"\n[conditions]\n'
+                                            'position = "500 mm"\ndatum = "100 mm"\n[quantities]\ndead_path = "300 mm"\nwavelength_change = "2 um/m"\n')
+        (self.folder / "v.csv").write_text("position (mm)\n500\n")
+        run = gumshoe("evaluate", "v.toml", "--table", "v.csv", cwd=self.folder)
+        simulated = float(next(csv.DictReader(io.StringIO(run.stdout)))["deviation (um)"])
+        self.assertAlmostEqual(simulated, deviation, delta=1e-6)
 
     # from a log
 

@@ -21,8 +21,9 @@ inline constexpr QuantityCard quantity_cards[] = {
     in_units({.name = "misalignment", .limits = {-0.1, 0.1},
               .meaning = "angle between the axis and the line along which the reference measures (cosine error)"}, "mrad", "rad"),
     in_mm({.name = "dead_path", .limits = not_negative,
-           .meaning = "length of the beam at the datum that the reference does not compensate"}),
-    per_length("wavelength_change", "change of the wavelength since the reference was set to zero; it acts on dead_path"),
+           .meaning = "length of the beam at the datum that the reference does not compensate; the travel leads away from the interferometer"}),
+    per_length("wavelength_change", "growth of the wavelength since the reference was set to zero: it makes the indication too small by "
+                                    "dead_path wavelength_change"),
     in_units({.name = "expansion", .default_value = 11.5e-6, .limits = {-1e-4, 1e-4},
               .meaning = "coefficient of linear thermal expansion of the axis' scale, by which results are reduced to 20 degC"}, "um/m/K", "1/K"),
     in_units({.name = "temperature_difference", .limits = {-200, 200},
@@ -64,7 +65,7 @@ inline constexpr VariableCard all_cards[] = {
 
 inline constexpr EquationCard deviation_equation{
     "corrected_deviation = deviation - reads_position * position - t * (reference_scale + cos(misalignment) - 1 + expansion * temperature_difference - "
-    "compensated) - reference_drift * time - dead_path * wavelength_change", "t = position - datum"};
+    "compensated) - reference_drift * time + dead_path * wavelength_change", "t = position - datum"};
 #define GUMSHOE_MEANS                                                                                                  \
   {"m_i = sum(x_ij) / n", "x_ij: corrected deviation at target i in run j, of each direction"},                        \
   {"E = max(m_i) - min(m_i)", "over targets and both directions; E_up, E_down: over one"},                             \

@@ -36,12 +36,13 @@ template <class T> T freed_error(const At<T>& at) {
 }
 
 /// By how much the reference indicates too much, and the axis deviates because it is not at 20 degC, m; to the first
-/// order in the errors but for the cosine.
+/// order in the errors but for the cosine. A longer wave has fewer fringes on the dead path: the reference, which
+/// counts them, then indicates less.
 template <class T> T reference_error(const At<T>& at) {
   const auto& q = at.q;
   const T half = num::sin(0.5 * q.misalignment);
   const T share = q.reference_scale - 2.0 * (half * half) + (q.expansion * q.temperature_difference - at.c.compensated);
-  return travel(at) * share + q.reference_drift * at.c.time + q.dead_path * q.wavelength_change;
+  return travel(at) * share + q.reference_drift * at.c.time - q.dead_path * q.wavelength_change;
 }
 
 /// What is read of an axis without any error, m.
