@@ -21,6 +21,7 @@ struct CompensationRow {
   double position = 0; ///< m or rad
   int direction = 0;
   double error = 0, u = 0; ///< actual minus commanded, of the indication; SI
+  double u_of_sizes = 0;   ///< without the declared quantities that the values of the sizes depend on
 };
 
 struct Compensation {
@@ -34,6 +35,13 @@ struct Compensation {
     std::string name, why; ///< "also depends on ..."
   };
   std::vector<LeftOut> left_out;
+  /// A declared quantity on which the errors depend, directly or because the fit of their sizes held it.
+  struct Declared {
+    std::string name;
+    double most = 0;       ///< its contribution to u at the position where that is largest, SI
+    bool contained = true; ///< else it is not in u: the readings of the fit, or their noise, are not in the scenario
+  };
+  std::vector<Declared> declared; ///< the largest first
   /// What a reading deviates by: what effects and the quantities asked for explain, or nothing does; what the model
   /// takes for the set-up's is none of it. SI.
   struct Deviation {
@@ -57,9 +65,9 @@ struct Compensation {
 std::string whole_of(const std::string& name);
 
 /// Errors of the effects with a size, at the positions of the scenario's readings: what the simulated indication loses
-/// when the sizes are at null; u by the law of propagation from the sizes' uncertainties and correlations. An effect
-/// that also depends on anything else (time, a temperature, a label) is left out. Throws InputError if nothing remains,
-/// or the conditions are not clear.
+/// when the sizes are at null; u by the law of propagation from the sizes' uncertainties and correlations, and from
+/// those of the declared quantities that the errors depend on. An effect that also depends on anything else (time, a
+/// temperature, a label) is left out. Throws InputError if nothing remains, or the conditions are not clear.
 Compensation compensation(const propagation::Experiment& experiment, const CompensationRequest& request);
 
 } // namespace gumshoe::calibration

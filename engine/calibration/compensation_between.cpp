@@ -127,7 +127,7 @@ StraightLines straight_lines(const propagation::Experiment& experiment, const Co
       const double line = low.error + (x - x0) / (x1 - x0) * (high.error - low.error);
       missed += (row.error - line) * (row.error - line);
       varied += (row.error - mean) * (row.error - mean);
-      uncertain += row.u * row.u;
+      uncertain += row.u_of_sizes * row.u_of_sizes;
       n += 1;
     }
   }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -172,6 +173,20 @@ private:
     return sum / static_cast<double>(points_.size());
   }
 
+  /// What u contains, and what it does not, in lines of comment.
+  std::string declared() const {
+    std::string out;
+    for (const bool contained : {true, false}) {
+      std::vector<std::string> names;
+      for (const auto& d : t_.declared)
+        if (d.contained == contained) names.push_back(d.name);
+      if (!names.empty())
+        out += fmt::format("# u {} the declared uncertainty of {}\n", contained ? "contains" : "does not contain",
+                           fmt::join(names, ", "));
+    }
+    return out;
+  }
+
   std::string csv() {
     const bool length = t_.indication_si_unit == "m";
     const char* const e = length ? "um" : "arcsec";
@@ -182,8 +197,8 @@ private:
                     "# direction: from which the position was reached, 1 upwards, -1 downwards, 0 either; u: "
                     "standard uncertainty of the error\n"
                     "# between the positions linear; beyond them nothing is known\n"
-                    "position_{},direction,error_{},correction_{},u_{}\n",
-                    unit(), e, e, e);
+                    "{}position_{},direction,error_{},correction_{},u_{}\n",
+                    declared(), unit(), e, e, e);
     for (const auto& row : t_.rows) {
       const std::string error = fmt::format("{:.4f}", row.error * factor);
       out += fmt::format("{:.10g},{},{},{:.4f},{:.4f}\n", position(row.position), row.direction, error,
@@ -245,9 +260,9 @@ private:
 
   std::string cec() {
     const double step = interval();
-    std::string out = fmt::format("%_N_NC_CEC_INI\nCHANDATA(1)\n; error (actual minus commanded), {}, zero at the "
+    std::string out = fmt::format("%_N_NC_CEC_INI\nCHANDATA(1)\n; error (actual minus commanded), {}, {}zero at the "
                                   "reference; the sign is that of the encoder table: prove it by one step\n",
-                                  unit());
+                                  unit(), both() ? "a table for each direction; their mean is " : "");
     for (int table = 0; table < (both() ? 2 : 1); ++table) {
       const bool up = table == 0;
       const double zero = mean_at_reference();

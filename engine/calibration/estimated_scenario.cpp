@@ -46,7 +46,7 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
   }
   ScenarioText out(s, folder);
   const std::string source =
-      fmt::format("gumshoe estimate of {}, {} readings, hash of scenario and data {}",
+      fmt::format("{}{}, {} readings, hash of scenario and data {}", estimate_source,
                   std::filesystem::path(s.file).filename().string(), estimate.rows.size(), s.hash);
   const double freedom = estimate.noise_declared ? estimate.noise_freedom : estimate.degrees_of_freedom;
   const bool t = s.estimate.t && std::isfinite(freedom);

@@ -81,6 +81,22 @@ void print_left(const calibration::Compensation& of, const calibration::AppliedT
   }
 }
 
+/// What u holds in addition to the uncertainty of the fit, and what it does not.
+void print_declared(const calibration::Compensation& of) {
+  std::vector<std::string> in, out;
+  for (const auto& d : of.declared)
+    if (d.contained)
+      in.push_back(fmt::format("{} (up to {})", d.name, error_text(d.most, of)));
+    else
+      out.push_back(d.name);
+  if (!in.empty()) std::cerr << fmt::format("u contains the declared uncertainty of {}\n", fmt::join(in, ", "));
+  if (!out.empty())
+    std::cerr << fmt::format(
+        "warning: u does not contain the declared uncertainty of {} (the estimate held it, and the "
+        "scenario has no readings with noise to say how the values depend on it)\n",
+        fmt::join(out, ", "));
+}
+
 /// Where a table with steps of its own begins and ends, and the travel that was measured.
 void print_travel(const calibration::Compensation& of, const calibration::AppliedTable& table) {
   const auto shown = [&](double x) { return fmt::format("{:.6g} {}", position_number(x, of), position_unit(of)); };
@@ -136,6 +152,7 @@ ExitCode compensate(CompensateOptions o) {
     write_table(o.out, file.text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
   std::cerr << warning;
+  print_declared(table);
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
   if (o.choice.step > 0) print_travel(table, file.applied);
   print_left(table, file.applied);

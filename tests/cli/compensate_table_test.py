@@ -112,6 +112,19 @@ class Tables(InOneFolder):
             for e in (up, down):
                 self.assertAlmostEqual(e / 0.25, round(e / 0.25), delta=1e-6)
 
+    def test_the_tables_of_both_directions_are_zero_at_the_reference_in_their_mean(self):
+        """Each of them is off by half the reversal there, of 2 um at every position; the file must not call it zero."""
+        for reference, place in (("294.1 mm", 1), ("594.1 mm", 2)):
+            run = self.compensate("sinumerik-cec", "--step", "300 mm", "--resolution", "1 nm", "--reference", reference)
+            _, up, down = read_back(run.stdout, "sinumerik-cec")[place]
+            self.assertAlmostEqual(up, 1, delta=1.1e-3)
+            self.assertAlmostEqual(down, -1, delta=1.1e-3)
+            self.assertIn("a table for each direction; their mean is zero at the reference", run.stdout)
+        (self.folder / "one.toml").write_text(SCENARIO.partition("[stated_effects.play]")[0])
+        run = gumshoe("compensate", "one.toml", "--format", "sinumerik-cec", "--step", "300 mm", cwd=self.folder)
+        self.assertIn("mm, zero at the reference", run.stdout, run.stderr)
+        self.assertEqual(float(re.search(r"^\$AN_CEC\[0,0\]=(.+)$", run.stdout, re.M)[1]), 0)
+
     def test_options_that_make_no_table(self):
         eec = ("--format", "sinumerik-eec")
         for size in ("0 um", "-1 um"):
