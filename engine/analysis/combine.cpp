@@ -44,8 +44,12 @@ CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& 
     for (auto a = groups[g].begin(); a != groups[g].end(); ++a) {
       out.unequal |= a->second.degrees != degrees;
       own += a->second.contribution * a->second.contribution;
-      for (auto b = groups[g].begin(); b != a; ++b)
-        between_members += 2 * correlations.between(a->first, b->first) * a->second.contribution * b->second.contribution;
+      for (auto b = groups[g].begin(); b != a; ++b) {
+        const double r = correlations.between(a->first, b->first);
+        between_members += 2 * r * a->second.contribution * b->second.contribution;
+        constexpr double one_error = 1 - 1e-9;
+        out.unequal |= std::isfinite(degrees) && correlations.of_results(g) && std::fabs(r) < one_error;
+      }
     }
     out.correlation += between_members;
     satterthwaite += std::pow(std::max(own + between_members, 0.0), 2) / degrees;

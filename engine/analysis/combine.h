@@ -19,14 +19,15 @@ struct CombinedVariance {
   double independent = 0; ///< sum of (c_i u_i)^2
   double correlation = 0; ///< what the coefficients add to it
   double effective_degrees_of_freedom = std::numeric_limits<double>::infinity(); ///< NaN if `unequal`
-  bool unequal = false; ///< correlated inputs have different degrees of freedom: G.4.1 does not hold
+  bool unequal = false; ///< correlated inputs have different degrees of freedom, or those of sums: G.4.1 does not hold
   double total() const { return std::max(0.0, independent + correlation); }
 };
 
 /// u_c^2 with effective degrees of freedom. The Welch-Satterthwaite formula holds for independent u_i (G.4.1): inputs
 /// whose u are multiples of one estimate are one term, and so are correlated inputs: of a multivariate t distribution
-/// with its degrees of freedom, exactly; otherwise with theirs if these are equal, as of inputs from one evaluation. A
-/// variate may stand in several terms, which then add linearly.
+/// with its degrees of freedom, exactly; otherwise with theirs if these are equal, as of inputs from one evaluation;
+/// results of earlier runs only if they are one error, with a coefficient of 1 or -1. A variate may stand
+/// in several terms, which then add linearly.
 CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& correlations);
 
 struct Expansion {

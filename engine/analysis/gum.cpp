@@ -252,8 +252,9 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
   b.coverage_factor = expansion.coverage_factor;
   b.expanded_uncertainty = expansion.expanded_uncertainty;
   if (combined.unequal)
-    b.remark = "no effective degrees of freedom: correlated inputs have different degrees of freedom, and the "
-               "Welch-Satterthwaite formula (G.4.1) holds for independent ones; k is the normal quantile";
+    b.remark =
+        "no effective degrees of freedom: correlated inputs have different degrees of freedom, or those of earlier "
+        "results, and the Welch-Satterthwaite formula (G.4.1) holds for independent ones; k is the normal quantile";
   if (combined.correlation != 0 || several)
     b.second_order_uncertainty = b.second_order_bias = nan;
   else

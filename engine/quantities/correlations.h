@@ -21,6 +21,9 @@ public:
   std::size_t groups() const { return plan_.copulas.size(); }
   /// Index into the plan's copulas; groups(), if the variate is in none.
   std::size_t group_of(std::size_t variate) const { return places_[variate].group; }
+  /// Whether the group's coefficients are stated apart from its draws, as of results of earlier runs: the degrees of
+  /// freedom of these are those of sums, which other sums do not have.
+  bool of_results(std::size_t group) const { return !plan_.copulas[group].pearson.empty(); }
 
   std::size_t estimates() const { return plan_.estimates.size(); }
   /// Index into the plan's common estimates; estimates(), if the variate's u is an estimate of its own.

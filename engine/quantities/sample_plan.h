@@ -46,7 +46,7 @@ struct CopulaGroup {
   /// By variate: the rank of its value in each sample of an earlier run. One sample is drawn for all. The matrix is a
   /// Gaussian copula's near it, for whatever needs a conditional law; empty: it is the law itself.
   std::vector<std::vector<std::uint32_t>> together;
-  std::vector<double> pearson; ///< coefficients of these samples, or Correlation::law; empty: by the copula
+  std::vector<double> pearson; ///< Correlation::law; empty: of these samples, else by the copula
   bool singular() const { return cholesky.back() == 0; }
   bool multivariate_t() const { return degrees_of_freedom > 0; }
   Distribution shared_scale() const { return chi_squared_over(degrees_of_freedom); }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -153,29 +152,7 @@ private:
       group.together.push_back(correlation_.together[factor.order[i]]);
     for (std::size_t i = 0; i < n_ * n_ && !correlation_.law.empty(); ++i)
       group.pearson.push_back(correlation_.law[factor.order[i / n_] * n_ + factor.order[i % n_]]);
-    if (!group.together.empty()) group.pearson = pearson_of(group);
     plan_.copulas.push_back(std::move(group));
-  }
-
-  /// Coefficients of the samples that are drawn together.
-  std::vector<double> pearson_of(const CopulaGroup& group) const {
-    std::vector<std::vector<double>> scores; // of length one
-    for (std::size_t i = 0; i < n_; ++i) {
-      const auto& values = *plan_.variates[group.variates[i]].distribution.values;
-      std::vector<double> x;
-      for (const std::uint32_t rank : group.together[i]) x.push_back(values[rank]);
-      const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
-      for (double& one : x) one -= mean;
-      const double length = std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0));
-      for (double& one : x) one /= length;
-      scores.push_back(std::move(x));
-    }
-    std::vector<double> out(n_ * n_, 1);
-    for (std::size_t i = 0; i < n_; ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        out[i * n_ + j] = out[j * n_ + i] =
-            std::clamp(std::inner_product(scores[i].begin(), scores[i].end(), scores[j].begin(), 0.0), -1.0, 1.0);
-    return out;
   }
 
   /// A multivariate t distribution has one number of degrees of freedom, that of the standard deviation its estimates

@@ -47,6 +47,19 @@ double correlation_of_scores(const std::vector<double>& a, const std::vector<dou
   return std::clamp(r, -1.0, 1.0);
 }
 
+/// Pearson's, of the samples that succeeded in both.
+double correlation_of_samples(const std::vector<double>& a, const std::vector<double>& b) {
+  double n = 0, mean_a = 0, mean_b = 0, aa = 0, bb = 0, ab = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (std::isnan(a[i]) || std::isnan(b[i])) continue;
+    n += 1;
+    const double da = a[i] - mean_a, db = b[i] - mean_b;
+    mean_a += da / n, mean_b += db / n;
+    aa += da * (a[i] - mean_a), bb += db * (b[i] - mean_b), ab += da * (b[i] - mean_b);
+  }
+  return aa > 0 && bb > 0 ? std::clamp(ab / std::sqrt(aa * bb), -1.0, 1.0) : 0;
+}
+
 /// A draw of the scenario, as a correlation names it.
 struct Draw {
   std::string name; ///< "laser_z", "laser_z.seat", "laser_z[rod = rod 1]"
@@ -109,6 +122,7 @@ public:
         }
       }
       c.together = ranks_together(members);
+      if (!c.together.empty()) c.law = law_together(members);
       context_.note(fmt::format("{}: {}", fmt::join(c.quantities, ", "),
                                 c.together.empty() ? "tied as their results are, by a Gaussian copula"
                                                    : "drawn together, as their run drew them"));
@@ -153,6 +167,68 @@ private:
     return out;
   }
 
+  /// Sum of the products c_i u_i c_j u_j of the components that both budgets have; NaN where one has no derivative.
+  static double product(const Draw& a, const Draw& b) {
+    double sum = 0;
+    for (const Share& s : a.output->shares)
+      for (const Share& t : b.output->shares)
+        if (s.component == t.component) sum += s.contribution * t.contribution;
+    return sum;
+  }
+  /// Whether the law of propagation has a u of it that is not that of its samples: a t counts by its scale.
+  static bool by_scale(const Draw& d) { return std::isfinite(d.output->degrees_of_freedom); }
+
+  /// Whether its contributions add up to u: the first order suffices, and no correlation takes part.
+  static bool accounted(const Draw& d) {
+    const double u = d.output->standard_uncertainty;
+    double variance = 0;
+    for (const Share& s : d.output->shares) variance += std::pow(s.contribution * (by_scale(d) ? 1 : s.spread), 2);
+    // A u of samples has a standard error of 1 / sqrt(2 n).
+    const double apart =
+        by_scale(d) ? 1e-6 : 0.01 + 4 * std::sqrt(2 / static_cast<double>(std::max<std::uint64_t>(d.output->drawn, 1)));
+    return std::abs(variance - u * u) <= apart * u * u; // not if it is NaN
+  }
+
+  /// Whether it is a t with these degrees of freedom in all its components, such as estimates that share one s: the
+  /// samples then have the coefficients of the scales, and every sum has these degrees of freedom.
+  static bool one_scale(const Draw& d, double degrees_of_freedom) {
+    return std::ranges::all_of(d.output->shares, [&](const Share& s) {
+      const double t = degrees_of_freedom / (degrees_of_freedom - 2);
+      return s.contribution == 0 || std::abs(s.spread * s.spread - t) <= 1e-6 * t;
+    });
+  }
+
+  /// Coefficient of two budgets that account for u.
+  static double by_budgets(const Draw& a, const Draw& b) {
+    return std::clamp(product(a, b) / std::sqrt(product(a, a) * product(b, b)), -1.0, 1.0);
+  }
+
+  /// Coefficients that the law of propagation takes for outputs that are drawn together; empty: those of the samples.
+  /// Samples weigh a component that is a t by its variance, and u weighs it by its scale.
+  std::vector<double> law_together(const std::vector<std::size_t>& members) {
+    const auto all = [&](const auto& is) {
+      return std::ranges::all_of(members, [&](std::size_t i) { return is(draws_[i]); });
+    };
+    const double freedom = draws_[members[0]].output->degrees_of_freedom;
+    if (all([](const Draw& d) { return !by_scale(d); })) return {};
+    if (all([&](const Draw& d) { return d.output->degrees_of_freedom == freedom && one_scale(d, freedom); })) return {};
+    const bool known = all(accounted);
+    std::vector<double> out;
+    for (const std::size_t i : members)
+      for (const std::size_t j : members)
+        out.push_back(i == j  ? 1
+                      : known ? by_budgets(draws_[i], draws_[j])
+                              : correlation_of_samples(draws_[i].output->samples, draws_[j].output->samples));
+    if (known) return out;
+    std::vector<std::string> names;
+    for (const std::size_t i : members) names.push_back(draws_[i].name);
+    context_.note(fmt::format("{}: the law of propagation takes the correlation of their samples, in which quantities "
+                              "of few degrees of freedom "
+                              "weigh more than in u; their budgets do not account for u",
+                              fmt::join(names, ", ")));
+    return out;
+  }
+
   std::size_t root(std::size_t i) const {
     while (set_[i] != i) i = set_[i];
     return i;
@@ -189,6 +265,7 @@ private:
     const bool one_file = a.stated->earlier->file == b.stated->earlier->file;
     if (one_file && !a.output->samples.empty() && !b.output->samples.empty()) {
       const double scores = correlation_of_scores(a.output->samples, b.output->samples);
+      if ((by_scale(a) || by_scale(b)) && accounted(a) && accounted(b)) return {scores, by_budgets(a, b)};
       return {scores, quantities::pearson_coefficient(scores, a.stated->distribution, b.stated->distribution)};
     }
     double covariance = 0, of_draws = 0;

@@ -75,8 +75,9 @@ private:
 /// - of different files: by the components of `same` in both budgets, sum of c_i u_i c_j u_j over u_a u_b (JCGM 100,
 /// F.1.2.3);
 /// - with a quantity of this scenario that `same` names: its contribution over u.
-/// Draws are tied by standard deviations, which of a t are larger than the u of the law of propagation; that has its own
-/// coefficients.
+/// Draws are tied by standard deviations, which of a t are larger than the u of the law of propagation; that has its
+/// own coefficients: of outputs of one file those of their budgets, where one is known by its u_c and all budgets
+/// account for u.
 /// Problems: a name in `same` that nothing else has, one that stands here with another u.
 std::vector<quantities::Correlation> tie_results(const std::vector<quantities::InputQuantity>& quantities,
                                                  const Node& document, Context& context);

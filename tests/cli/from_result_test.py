@@ -164,6 +164,50 @@ class FromResult(Lengths):
         # Monte Carlo keeps the t distribution: its variance is 4 / (4 - 2) of that.
         self.assertAlmostEqual(new["u"], math.sqrt(3) * 1e-6, delta=0.05e-6)
 
+    def budget(self, result, output):
+        with h5py.File(result) as f:
+            names = [n.decode() for n in f["summary/name"][:]]
+            budget = f[f"budget/{names.index(output):03d}"]
+            get = lambda name: budget.attrs[name] if name in budget.attrs else budget[name][()]
+            return get("combined_standard_uncertainty"), get("effective_degrees_of_freedom")
+
+    def test_the_law_of_propagation_takes_results_together_as_their_budgets_do(self):
+        """y = a + b and z = a - b, a with 4 degrees of freedom: the samples of a have twice the variance u^2, so that their
+        correlation is 5/7 and that of the budgets 1/2. y - z = 2 b and y + z = 2 a know nothing of the other input."""
+        two = 'a = { value = "3 um", u = "1 um", degrees_of_freedom = 4 }\n' \
+              'b = { value = "1 um", distribution = "rectangular", half_width = "1 um" }'
+        few = self.ran("sum_and_difference", 'y = "a + b"\nz = "a - b"\nt = "2 * y"', two)
+        c = 'c = { value = "1 um", u = "0.5 um", degrees_of_freedom = 9 }'
+        out = self.ran("of_sum_and_difference", 'v = "p - q + c"\nw = "p + q + c"',
+                       f'p = {{ from = "{few.name}:y" }}\nq = {{ from = "{few.name}:z" }}\n{c}')
+        for output, u in (("v", math.sqrt(4 / 3 + 0.25)), ("w", math.sqrt(4 + 0.25))):
+            u_c, freedom = self.budget(out, output)
+            self.assertAlmostEqual(u_c, u * 1e-6, delta=1e-11)
+            self.assertTrue(math.isnan(freedom), freedom)  # 361 and 4; y and z have 7 each, which no sum of them has
+        shown = gumshoe("analyse", out, "--budget").stdout
+        self.assertIn("no effective degrees of freedom", shown)
+        # The samples are still those of the earlier run, a with its own variance.
+        self.assertAlmostEqual(self.figures(out, "v")["u"], math.sqrt(4 / 3 + 0.25 * 9 / 7) * 1e-6, delta=2 * SE * 1.3e-6)
+        # One error has its degrees of freedom in every sum.
+        both = self.ran("of_one_error", 'w = "p + q"', f'p = {{ from = "{few.name}:y" }}\nq = {{ from = "{few.name}:t" }}')
+        u_c, freedom = self.budget(both, "w")
+        self.assertAlmostEqual(u_c, 3 * math.sqrt(4 / 3) * 1e-6, delta=1e-11)
+        self.assertEqual(freedom, math.floor((4 / 3)**2 * 4))
+
+    def test_estimates_with_one_s_keep_its_degrees_of_freedom(self):
+        one = self.ran("one_s", 'y = "2 * a"\nz = "3 * a"', 'a = { value = "3 um", u = "1 um", degrees_of_freedom = 4 }')
+        out = self.ran("of_one_s", 'w = "p + q"', f'p = {{ from = "{one.name}:y" }}\nq = {{ from = "{one.name}:z" }}')
+        u_c, freedom = self.budget(out, "w")
+        self.assertAlmostEqual(u_c, 5e-6, delta=1e-11)
+        self.assertEqual(freedom, 4)
+
+    def test_budgets_that_do_not_account_for_u_are_said(self):
+        """The square of b has no first order at 0: how it depends on a + b is in the samples alone."""
+        few = self.ran("square_of_one", 'y = "a + b"\nz = "b^2"', 'a = { value = "3", u = "1", degrees_of_freedom = 4 }\n'
+                       'b = { value = "0.1", u = "1" }')
+        file = self.write("of_square", 'w = "p + q"', f'p = {{ from = "{few.name}:y" }}\nq = {{ from = "{few.name}:z" }}')
+        self.assertIn("p, q: the law of propagation takes the correlation of their samples", gumshoe("check", file).stdout)
+
     def test_a_result_without_samples_is_normal_or_t(self):
         bare = self.ran("bare", 'y = "a"', 'a = { value = "1 mm", u = "1 um" }', "store_samples = false\n")
         file = self.write("of_bare", 'y = "x"', 'x = { from = "bare.h5:y" }')
