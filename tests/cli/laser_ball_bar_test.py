@@ -98,6 +98,11 @@ class LaserBallBar(unittest.TestCase):
             self.assertAlmostEqual(azimuth, 45 * sense, delta=1)
             self.assertAlmostEqual(float(found["peak_to_valley (mm)"]), FEED * MISMATCH, delta=2e-3 * FEED * MISMATCH)
 
+    def test_each_gain_is_explained_by_its_own_symbol(self):
+        said = gumshoe("effects", "servo_gain_mismatch").stdout
+        for slide in "yz":
+            self.assertRegex(said, rf"(?m)^  {slide} .*\n +K_{slide}/K_x - 1: loop gain of {slide.upper()} above that of X")
+
     def test_a_line_is_offset_by_its_gains_and_by_nothing_on_the_way_there(self):
         header = ["contour", "time (s)", "feed (mm/min)", "angle (deg)", "servo_gain_mismatch.y (%)"]
         found = self.together("line", header, *([1, repr(t / 100), 1778, 45, 10] for t in range(0, 300)), falsified=["servo"])

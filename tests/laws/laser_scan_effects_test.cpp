@@ -67,6 +67,15 @@ TEST_CASE("what the sensor adds, and how the axes move the part", "[laws][laser_
   CHECK(std::fabs(change("b_brake_shift.angle (arcsec)", "10", "surface (1),B (deg)", "1,30") + 0.07e6 * turn / std::cos(30 * deg)) < 1e-3);
 }
 
+TEST_CASE("Z counts as lowered to every spot", "[laws][laser_scan][effects]") {
+  // Half a backlash of 30 um too high, whatever the rotary axes come from: with the part turned below it as well.
+  for (const char* directions : {"1,1", "-1,1", "1,-1", "0,-1"})
+    CHECK(std::fabs(change("z_reversal.backlash (um)", "30",
+                           "sensor_gain (1),surface (1),B (deg),direction (1),B_direction (1)",
+                           fmt::format("0.01,1,20,{}", directions)) +
+                    1.01 * 15) < 1e-9);
+}
+
 TEST_CASE("an axis that lags leaves the table behind its command, and a gear ratio turns it further", "[laws][laser_scan][effects]") {
   // The table turns by minus the command. A table that is delta further about +Z than it should be shows a plane of slope m,
   // at radius r and theta, where theta - delta was: nearer by m r (cos(theta - delta) - cos theta).

@@ -6,15 +6,15 @@ namespace gumshoe::effects {
 
 /// A row of the card.
 struct MismatchedGain {
-  static constexpr QuantityCard row(std::string_view name, std::string_view meaning) {
-    return {.name = name, .unit = "%", .si_unit = "1", .limits = {-0.9, 9}, .symbol = "K_y/K_x - 1", .meaning = meaning,
+  static constexpr QuantityCard row(std::string_view name, std::string_view symbol, std::string_view meaning) {
+    return {.name = name, .unit = "%", .si_unit = "1", .limits = {-0.9, 9}, .symbol = symbol, .meaning = meaning,
             .role = Role::amplitude, .typical = {0.01, 0.1, "45 um at 1778 mm/min on a line at 45 deg for 10 % of 30 1/s"}};
   }
 };
 
 struct ServoGainMismatch {
-  static constexpr QuantityCard quantities[] = {MismatchedGain::row("y", "loop gain of Y above that of X, as a share"),
-                                                MismatchedGain::row("z", "loop gain of Z above that of X, as a share")};
+  static constexpr QuantityCard quantities[] = {MismatchedGain::row("y", "K_y/K_x - 1", "loop gain of Y above that of X, as a share"),
+                                                MismatchedGain::row("z", "K_z/K_x - 1", "loop gain of Z above that of X, as a share")};
   static constexpr EffectCard card{
       .name = "servo_gain_mismatch",
       .title = "Loop gains that differ between the slides",

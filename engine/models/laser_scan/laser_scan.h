@@ -12,8 +12,11 @@ struct LaserScan {
   static constexpr ModelCard card{
       .name = "laser_scan",
       .title = "Scanning a part with a displacement sensor on a five-axis machine",
-      .summary = "A laser displacement sensor in the spindle scans a part on the rotary table; what it reads depends on the "
-                 "part's form, on how the part is set up and on the location errors of the machine's axes.",
+      .summary =
+          "A laser displacement sensor in the spindle scans a part on the rotary table; what it reads depends on the "
+          "part's form, on how the part is set up and on the location errors of the machine's axes. No condition "
+          "states from which side Z reaches a spot: it counts as lowered to the part, so that z_reversal "
+          "leaves the sensor backlash / 2 too high at every spot.",
       .source = "Ibaraki et al. 2018, sections 3 and 4, derived anew; see reports/errata.md",
       .quantities = quantity_cards,
       .conditions = condition_cards,
