@@ -75,9 +75,8 @@ Held held_by_fit(const Experiment& e, const Columns& columns) {
     if (from_estimate(e, variates[c])) out.fitted.push_back(c);
   const auto tied = [&](std::size_t c) {
     const std::size_t group = correlations.group_of(variates[c]);
-    return group < correlations.groups() && std::ranges::any_of(out.fitted, [&](std::size_t f) {
-             return correlations.group_of(variates[f]) == group;
-           });
+    return group < correlations.groups() &&
+           std::ranges::any_of(out.fitted, [&](std::size_t f) { return correlations.group_of(variates[f]) == group; });
   };
   for (std::size_t c = 0; c < variates.size() && !out.fitted.empty(); ++c)
     if (!from_estimate(e, variates[c]) && !tied(c) && all.col(static_cast<Eigen::Index>(c)).any())

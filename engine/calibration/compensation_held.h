@@ -11,7 +11,7 @@ namespace gumshoe::calibration {
 
 /// Variates of the plan other than the noise of indications, which are as many as the readings: the columns below.
 struct Columns {
-  std::vector<std::size_t> variates;  ///< ascending
+  std::vector<std::size_t> variates;   ///< ascending
   std::vector<std::size_t> of_variate; ///< by variate of the plan
   std::vector<std::size_t> quantities; ///< that have them, ascending
   explicit Columns(const propagation::Experiment& experiment);
