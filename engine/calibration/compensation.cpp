@@ -301,7 +301,7 @@ private:
     return std::sqrt(std::max(0.0, variance));
   }
 
-  /// Derivatives of the errors with what the fit held, which moves the values that it gave.
+  /// Adds to the derivatives of the errors what the fit held: it moves the values that the fit gave.
   Eigen::MatrixXd with_held(const Eigen::MatrixXd& direct) {
     const Held fit = held_by_fit(e_, columns_);
     fitted_ = fit.fitted;
@@ -326,9 +326,9 @@ private:
     return out_.declared.back();
   }
 
-  /// What neither a size nor another fitted value is, of one row.
+  /// Notes the contributions to one row that come neither from sizes nor from other fitted values.
   void add_declared(const Eigen::VectorXd& slope, const Eigen::VectorXd& of_sizes) {
-    std::map<std::size_t, Eigen::VectorXd> by_quantity; // which may have several draws
+    std::map<std::size_t, Eigen::VectorXd> by_quantity; // a quantity may have several draws
     for (Eigen::Index c = 0; c < slope.size(); ++c) {
       const auto column = static_cast<std::size_t>(c);
       if (slope[c] == 0 || of_sizes[c] != 0 || std::ranges::find(fitted_, column) != fitted_.end()) continue;
@@ -340,7 +340,7 @@ private:
     }
   }
 
-  /// Contributions that do not show in u.
+  /// Drops contributions that do not show in u.
   void drop_small_declared() {
     double most = 0;
     for (const auto& row : out_.rows) most = std::max(most, row.u);
