@@ -149,7 +149,8 @@ offset = "0 um"
         self.assertIn("compares targets reached from both sides, but a direction is 0", run.stderr)
         (self.folder / "axis.csv").write_text(text.replace("500,0,", "500,2,"))
         self.assertIn("direction must be 1, -1 or 0", gumshoe("run", "s.toml", "--force", cwd=self.folder).stderr)
-        for line, said in (('pitch = "-5 mm"', "pitch is negative"), ("reads_position = 2", "reads_position must be 0 or 1"), ('temperature = "-300 degC"', "temperature is below absolute zero")):
+        for line, said in (('pitch = "-5 mm"', "pitch is negative"), ("reads_position = 2", "reads_position must be 0 or 1"), ('temperature = "-5 K"', "temperature is below absolute zero"),
+                           ('temperature = "-300 degC"', "-300 degC is below absolute zero (-273.15 degC)")):
             self.assertIn(said, self.check(UP, DOWN, conditions=line, code=2))
 
     # one reading
