@@ -192,15 +192,16 @@ private:
   /// Whether it is a t with these degrees of freedom in all its components, such as estimates that share one s: the
   /// samples then have the coefficients of the scales, and every sum has these degrees of freedom.
   static bool one_scale(const Draw& d, double degrees_of_freedom) {
-    return std::ranges::all_of(d.output->shares, [&](const Share& s) {
-      const double t = degrees_of_freedom / (degrees_of_freedom - 2);
-      return s.contribution == 0 || std::abs(s.spread * s.spread - t) <= 1e-6 * t;
-    });
+    return degrees_of_freedom > 2 && std::ranges::all_of(d.output->shares, [&](const Share& s) {
+             const double t = degrees_of_freedom / (degrees_of_freedom - 2); // variance over scale squared
+             return s.contribution == 0 || std::abs(s.spread * s.spread - t) <= 1e-6 * t;
+           });
   }
 
   /// Coefficient of two budgets that account for u.
   static double by_budgets(const Draw& a, const Draw& b) {
-    return std::clamp(product(a, b) / std::sqrt(product(a, a) * product(b, b)), -1.0, 1.0);
+    const double both = std::sqrt(product(a, a) * product(b, b));
+    return both > 0 ? std::clamp(product(a, b) / both, -1.0, 1.0) : 0;
   }
 
   /// Coefficients that the law of propagation takes for outputs that are drawn together; empty: those of the samples.
@@ -223,8 +224,7 @@ private:
     std::vector<std::string> names;
     for (const std::size_t i : members) names.push_back(draws_[i].name);
     context_.note(fmt::format("{}: the law of propagation takes the correlation of their samples, in which quantities "
-                              "of few degrees of freedom "
-                              "weigh more than in u; their budgets do not account for u",
+                              "of few degrees of freedom weigh more than in u (their budgets do not account for u)",
                               fmt::join(names, ", ")));
     return out;
   }
