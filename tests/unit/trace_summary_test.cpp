@@ -100,6 +100,11 @@ TEST_CASE("a sentence names what these data cannot distinguish from it", "[traci
   CHECK(said("step:time after reading 9", "time", "step:machine M2, polynomial:1/temp^2") ==
         "Something changed after reading 9: from then on the readings differ by a constant; these data cannot "
         "distinguish it from a constant difference of machine M2 or an effect of temp.");
+  CHECK(
+      said("drift:time", "time", "while:order from reading 9 to reading 20, bend:order with tool T2 after reading 4") ==
+      "An unknown effect changes the readings with time; these data cannot distinguish it from a difference from "
+      "reading "
+      "9 to reading 20.");
   // What is the same in every reading is of another sort than a group: it is told apart from the subject.
   CHECK(said("step:operator Bob", "operator", "polynomial:load (the same in every reading)") ==
         "operator Bob differs from the others by a constant; these data cannot distinguish it from an effect of load.");

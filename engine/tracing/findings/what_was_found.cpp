@@ -143,6 +143,10 @@ InWords in_words(std::string shape) {
     if (!reading.empty()) return {reading, "a step after " + reading};
     return {rest, "a constant difference of " + rest, true};
   }
+  if (const auto [with, readings] = while_of(shape); !readings.empty())
+    return {readings, fmt::format("a difference{} {}", with, readings), false, with.empty()};
+  if (const auto [with, reading] = bend_of(shape); !reading.empty())
+    return {reading, fmt::format("a steady change{} from {} on", with, reading), false, with.empty()};
   std::string on = rest.substr(0, rest.find_first_of("^ "));
   if (on.starts_with("1/")) on.erase(0, 2);
   return {on, "an effect of " + on, false, on.find('*') == std::string::npos};
