@@ -10,9 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "base/units.h"
-#include "calibration/compensation_held.h"
+#include "calibration/compensation_uncertainty.h"
 #include "effects/effect.h"
-#include "quantities/correlations.h"
 #include "quantities/effect_of.h"
 
 namespace gumshoe::calibration {
@@ -44,8 +43,7 @@ bool is_size(const QuantityCard& card) { return card.role == Role::amplitude || 
 class Composer {
 public:
   Composer(const Experiment& e, const CompensationRequest& r)
-      : e_(e), s_(e.scenario()), request_(r), card_(*e.model().card), at_(e.estimates()), columns_(e),
-        correlations_(e.plan()) {}
+      : e_(e), s_(e.scenario()), request_(r), card_(*e.model().card), at_(e.estimates()) {}
 
   Compensation compose() {
     find_conditions();
@@ -251,101 +249,21 @@ private:
   }
 
   void add_rows(const std::vector<double>& change, const std::vector<Source>& kept, const Points& without) {
-    std::vector<std::size_t> sizes, others = columns_.quantities;
+    std::vector<std::size_t> sizes;
     for (const Source& source : kept)
-      for (const auto& [q, null] : source.nulls) std::erase(others, q), sizes.push_back(q);
-    const Eigen::MatrixXd by_size = derivatives(at_, sizes);
+      for (const auto& [q, null] : source.nulls) sizes.push_back(q);
     // Between readings u only tells whether the errors' shape is chance, to which what all of them share adds nothing.
-    const bool all = request_.only.empty();
-    const Eigen::MatrixXd by_variate =
-        all ? with_held(by_size + derivatives(at_, others) - derivatives(without, others)) : by_size;
+    ErrorUncertainty uncertainty(e_, indication_, at_, without, sizes, request_.only.empty());
     for (const auto& [key, readings] : cells_) {
-      Eigen::VectorXd slope = Eigen::VectorXd::Zero(by_variate.cols()), of_sizes = slope;
       double error = 0;
-      for (const std::size_t r : readings) {
-        slope += by_variate.row(static_cast<Eigen::Index>(r)).transpose();
-        of_sizes += by_size.row(static_cast<Eigen::Index>(r)).transpose();
-        error += change[r];
-      }
-      const auto n = static_cast<double>(readings.size());
-      slope /= n, of_sizes /= n;
-      const double u_of_sizes = u_of(of_sizes);
-      out_.rows.push_back({key.first, key.second, error / n, all ? u_of(slope) : u_of_sizes, u_of_sizes});
-      add_declared(slope, of_sizes);
+      for (const std::size_t r : readings) error += change[r];
+      const auto [u, u_of_sizes] = uncertainty.of_mean(readings);
+      out_.rows.push_back({key.first, key.second, error / static_cast<double>(readings.size()), u, u_of_sizes});
     }
-    drop_small_declared();
+    out_.declared = uncertainty.declared();
     std::ranges::stable_sort(out_.rows, [](const auto& a, const auto& b) {
       return std::pair(a.position, -a.direction) < std::pair(b.position, -b.direction);
     });
-  }
-
-  /// Derivatives of the indication asked for, [reading][column].
-  Eigen::MatrixXd derivatives(const Points& at, const std::vector<std::size_t>& quantities) const {
-    const Eigen::MatrixXd rows = indications_by_variate(e_, columns_, at, quantities);
-    const auto k = static_cast<Eigen::Index>(card_.indications.size()), n = rows.rows() / k;
-    Eigen::MatrixXd out(n, rows.cols());
-    for (Eigen::Index r = 0; r < n; ++r) out.row(r) = rows.row(r * k + static_cast<Eigen::Index>(indication_));
-    return out;
-  }
-
-  double u_of(const Eigen::VectorXd& slope) {
-    std::vector<Eigen::Index> moved;
-    for (Eigen::Index c = 0; c < slope.size(); ++c)
-      if (slope[c] != 0) moved.push_back(c);
-    double variance = 0;
-    for (const auto a : moved)
-      for (const auto b : moved)
-        variance += slope[a] * slope[b] *
-                    correlations_.covariance(columns_.variates[static_cast<std::size_t>(a)],
-                                             columns_.variates[static_cast<std::size_t>(b)]);
-    return std::sqrt(std::max(0.0, variance));
-  }
-
-  /// Adds to the derivatives of the errors what the fit held: it moves the values that the fit gave.
-  Eigen::MatrixXd with_held(const Eigen::MatrixXd& direct) {
-    const Held fit = held_by_fit(e_, columns_);
-    fitted_ = fit.fitted;
-    Eigen::MatrixXd out = direct;
-    if (fit.slopes.size() > 0)
-      for (std::size_t h = 0; h < fit.held.size(); ++h)
-        for (std::size_t f = 0; f < fit.fitted.size(); ++f)
-          out.col(static_cast<Eigen::Index>(fit.held[h])) +=
-              direct.col(static_cast<Eigen::Index>(fit.fitted[f])) *
-              fit.slopes(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(h));
-    else
-      for (const std::size_t c : fit.held) declared(quantity_of(c)).contained = false;
-    return out;
-  }
-
-  std::size_t quantity_of(std::size_t column) const { return e_.plan().variates[columns_.variates[column]].quantity; }
-  Compensation::Declared& declared(std::size_t quantity) {
-    const std::string& name = s_.quantities[quantity].name;
-    const auto known = std::ranges::find(out_.declared, name, &Compensation::Declared::name);
-    if (known != out_.declared.end()) return *known;
-    out_.declared.push_back({name});
-    return out_.declared.back();
-  }
-
-  /// Notes the contributions to one row that come neither from sizes nor from other fitted values.
-  void add_declared(const Eigen::VectorXd& slope, const Eigen::VectorXd& of_sizes) {
-    std::map<std::size_t, Eigen::VectorXd> by_quantity; // a quantity may have several draws
-    for (Eigen::Index c = 0; c < slope.size(); ++c) {
-      const auto column = static_cast<std::size_t>(c);
-      if (slope[c] == 0 || of_sizes[c] != 0 || std::ranges::find(fitted_, column) != fitted_.end()) continue;
-      by_quantity.try_emplace(quantity_of(column), Eigen::VectorXd::Zero(slope.size())).first->second[c] = slope[c];
-    }
-    for (const auto& [q, own] : by_quantity) {
-      Compensation::Declared& one = declared(q);
-      one.most = std::max(one.most, u_of(own));
-    }
-  }
-
-  /// Drops contributions that do not show in u.
-  void drop_small_declared() {
-    double most = 0;
-    for (const auto& row : out_.rows) most = std::max(most, row.u);
-    std::erase_if(out_.declared, [&](const auto& d) { return d.contained && !(d.most > 0.01 * most); });
-    std::ranges::stable_sort(out_.declared, std::ranges::greater(), &Compensation::Declared::most);
   }
 
   /// @param whole  what the scenario expects  @param all  of that what effects and the quantities asked for give
@@ -423,9 +341,6 @@ private:
   Points at_;
   std::size_t indication_ = 0, position_ = none, direction_ = none;
   std::map<Key, std::vector<std::size_t>> cells_;
-  Columns columns_;
-  quantities::Correlations correlations_;
-  std::vector<std::size_t> fitted_; ///< columns of values that an estimate gave
   Compensation out_;
 };
 
