@@ -53,6 +53,12 @@ struct CellTable {
   std::string indication, indication_unit, indication_si_unit;
 };
 
+/// A shape that describes the readings as well as the one of a finding does.
+struct RivalShape {
+  std::string shape;        ///< "step:machine M2", with what was held fixed of it
+  bool never_apart = false; ///< it rises and falls with the finding's own in every reading
+};
+
 struct Finding {
   Kind kind = Kind::named;
   std::string name; ///< "trigger_latency", "declared:rod_length[rod 2]", "scatter:rod,setup", "not in the catalogue"
@@ -73,6 +79,7 @@ struct Finding {
   std::string implausible;          ///< why no such effect has its size: likely an alias of another; or empty
   std::string fits_better;          ///< unknown effect that fits better, as chance could have it; or empty
   std::string described_by;         ///< shape of an unknown effect: "table:position*direction"; else empty
+  std::vector<RivalShape> rivals;   ///< of an unknown effect
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
   bool by_default = false;          ///< the declared value is the model's, because the scenario states none
 };

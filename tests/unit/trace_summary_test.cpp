@@ -78,35 +78,35 @@ TEST_CASE("where nothing is found, the sentence says how seldom noise alone give
 }
 
 TEST_CASE("a sentence names what these data cannot distinguish from it", "[tracing][verdict]") {
-  const auto said = [](const char* shape, const char* depends_on, const char* rivals) {
+  const auto said = [](const char* shape, const char* depends_on, std::vector<RivalShape> rivals) {
     Trace t = made::trace("not_in_catalogue").trace;
     t.findings.resize(1);
     Finding& f = t.findings[0];
     f.described_by = shape;
     f.depends_on = {depends_on};
-    f.remarks = {std::string("these data cannot distinguish it from ") + rivals};
+    f.rivals = std::move(rivals);
     summarise(t);
     return t.plain[0];
   };
   CHECK(said("step:operator Bob", "operator",
-             "step:machine M2 (the same in every reading), step:order with operator Ann after reading 2") ==
+             {{"step:machine M2", true}, {"step:order with operator Ann after reading 2", false}}) ==
         "operator Bob or machine M2, which are never apart in these data, differs from the others by a constant.");
-  CHECK(said("polynomial:time", "time", "polynomial:temp, drift:temp (saturating, time constant 9 s)") ==
+  CHECK(said("polynomial:time", "time",
+             {{"polynomial:temp", false}, {"drift:temp (saturating, time constant 9 s)", false}}) ==
         "An unknown effect changes the readings with time; these data cannot distinguish it from an effect of temp.");
-  CHECK(said("step:machine M1", "machine",
-             "step:operator Ann, machine M1 (the same in every reading), step:operator Bob") ==
+  CHECK(said("step:machine M1", "machine", {{"step:operator Ann, machine M1", true}, {"step:operator Bob", false}}) ==
         "machine M1 differs from the others by a constant; these data cannot distinguish it from a constant difference "
         "of operator Bob.");
-  CHECK(said("step:time after reading 9", "time", "step:machine M2, polynomial:1/temp^2") ==
+  CHECK(said("step:time after reading 9", "time", {{"step:machine M2", false}, {"polynomial:1/temp^2", false}}) ==
         "Something changed after reading 9: from then on the readings differ by a constant; these data cannot "
         "distinguish it from a constant difference of machine M2 or an effect of temp.");
   CHECK(
-      said("drift:time", "time", "while:order from reading 9 to reading 20, bend:order with tool T2 after reading 4") ==
+      said("drift:time", "time",
+           {{"while:order from reading 9 to reading 20", false}, {"bend:order with tool T2 after reading 4", false}}) ==
       "An unknown effect changes the readings with time; these data cannot distinguish it from a difference from "
-      "reading "
-      "9 to reading 20.");
+      "reading 9 to reading 20.");
   // What is the same in every reading is of another sort than a group: it is told apart from the subject.
-  CHECK(said("step:operator Bob", "operator", "polynomial:load (the same in every reading)") ==
+  CHECK(said("step:operator Bob", "operator", {{"polynomial:load", true}}) ==
         "operator Bob differs from the others by a constant; these data cannot distinguish it from an effect of load.");
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 #include <string_view>
 #include <vector>
 
@@ -14,7 +13,6 @@
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/verdict_json.h"
-#include "tracing/judgement/shape_order.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -134,8 +132,7 @@ struct InWords {
   std::string on, told;
   bool group = false, of_one = true; ///< of a group of a label; of one condition or label alone
 };
-InWords in_words(std::string shape) {
-  if (shape.ends_with(never_apart)) shape.resize(shape.size() - never_apart.size());
+InWords in_words(const std::string& shape) {
   const std::string kind = shape.substr(0, shape.find(':')), rest = shape.substr(shape.find(':') + 1);
   if (kind == "step") {
     const std::string reading = instant_of(shape), part = part_of_step(shape);
@@ -152,13 +149,6 @@ InWords in_words(std::string shape) {
   return {on, "an effect of " + on, false, on.find('*') == std::string::npos};
 }
 
-/// The shapes that a remark lists, apart: each begins with its kind, "step:". Their names may hold commas, too.
-std::vector<std::string> listed(std::string_view text) {
-  static const std::regex next(", (?=[a-z]+:)");
-  const std::string all(text);
-  return {std::sregex_token_iterator(all.begin(), all.end(), next, -1), std::sregex_token_iterator()};
-}
-
 /// Whether one shape is of the other's group alone, or of a part of it: "operator Ann, machine M1" and "machine M1".
 bool overlap(const InWords& a, const InWords& b) {
   return a.group && b.group && (a.on.find(b.on) != std::string::npos || b.on.find(a.on) != std::string::npos);
@@ -171,16 +161,13 @@ Rivals rivals_in_words(const Finding& f) {
     if (std::ranges::find(to, one) == to.end()) to.push_back(one);
   };
   std::vector<std::string> further;
-  for (const std::string& remark : f.remarks) {
-    if (!remark.starts_with(rivals_begin)) continue;
-    for (const std::string& shape : listed(std::string_view(remark).substr(rivals_begin.size()))) {
-      const InWords one = in_words(shape);
-      if (overlap(one, own)) continue;
-      if (shape.ends_with(never_apart) && one.of_one && one.group == own.group)
-        add(out.never_apart, one.on);
-      else
-        add(one.of_one ? out.others : further, one.told);
-    }
+  for (const RivalShape& rival : f.rivals) {
+    const InWords one = in_words(rival.shape);
+    if (overlap(one, own)) continue;
+    if (rival.never_apart && one.of_one && one.group == own.group)
+      add(out.never_apart, one.on);
+    else
+      add(one.of_one ? out.others : further, one.told);
   }
   if (out.others.empty()) out.others = std::move(further); // of parts for a while, say: only where nothing simpler is
   return out;

@@ -35,6 +35,13 @@ bool at_a_limit(const Term& term) {
   return false;
 }
 
+std::string cannot_be_distinguished_from(const std::vector<RivalShape>& rivals) {
+  std::vector<std::string> all;
+  for (const RivalShape& one : rivals)
+    all.push_back(one.shape + (one.never_apart ? " (the same in every reading)" : ""));
+  return fmt::format("these data cannot distinguish it from {}", fmt::join(all, ", "));
+}
+
 std::string unknown_effect(const std::vector<std::string>& depends_on) {
   return fmt::format("an unknown effect of {}", fmt::join(depends_on, " and "));
 }
@@ -315,18 +322,21 @@ private:
     }
     // What shows in one block only cannot be predicted from the others: there it is nevertheless.
     if (!unconfirmed || !out_.findings.empty()) return false;
-    add_shape(unconfirmed->first, unconfirmed->second, assessment.p_signature,
+    add_shape(unconfirmed->first, unconfirmed->second, assessment.p_signature, {},
               "it does not improve the prediction of held-out blocks; it may belong to some blocks only");
     return true;
   }
 
-  void add_shape(std::size_t a, const JointFit& fit, double p, const std::string& remark = {}) {
+  void add_shape(std::size_t a, const JointFit& fit, double p, std::vector<RivalShape> rivals = {},
+                 const std::string& remark = {}) {
     SearchFinding found = found_by(a, Kind::not_in_catalogue);
     found.finding.p_value = p;
     found.finding.described_by = candidate(a).name;
     // A time constant is told as it is fitted in the end.
     const bool fixed = candidate(a).form == Form::fixed && !is_one_of_several_forms(*evidence_, a);
     found.finding.remarks.push_back("described by " + (fixed ? with_shape(candidate(a)) : candidate(a).name));
+    if (!rivals.empty()) found.finding.remarks.push_back(cannot_be_distinguished_from(rivals));
+    found.finding.rivals = std::move(rivals);
     if (!remark.empty()) found.finding.remarks.push_back(remark);
     outcomes_[a] = "describes an unknown effect";
     add(std::move(found));

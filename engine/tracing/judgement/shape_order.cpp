@@ -216,10 +216,11 @@ bool of_blocks(const TraceContext& c, const Candidate& a) {
 
 } // namespace
 
-std::string rivals_of(const TraceContext& c, const Evidence& e, std::size_t a, const std::vector<Trial>& tried) {
+std::vector<RivalShape> rivals_of(const TraceContext& c, const Evidence& e, std::size_t a,
+                                  const std::vector<Trial>& tried) {
   const Candidate& own = e.candidates()[a];
   const double ratio = std::ranges::find(tried, a, &Trial::candidate)->ratio;
-  std::vector<std::string> out;
+  std::vector<RivalShape> out;
   for (const Trial& t : tried) {
     const Candidate& other = e.candidates()[t.candidate];
     if (t.candidate == a || own.columns.cols() != 1 || other.columns.cols() != 1 ||
@@ -229,9 +230,9 @@ std::string rivals_of(const TraceContext& c, const Evidence& e, std::size_t a, c
     const bool edge = (of_blocks(c, own) && is_lasting_step(other, c.observations)) ||
                       (of_blocks(c, other) && is_lasting_step(own, c.observations));
     if (edge && std::fabs(alike) >= collinear) continue;
-    out.push_back(with_shape(other) + std::string(alike >= collinear ? never_apart : ""));
+    out.push_back({with_shape(other), alike >= collinear});
   }
-  return out.empty() ? "" : fmt::format("{}{}", rivals_begin, fmt::join(out, ", "));
+  return out;
 }
 
 } // namespace gumshoe::tracing

@@ -1,7 +1,5 @@
 #pragma once
 /// Which of several shapes without a cause is there, and which others these data cannot tell from it.
-#include <string_view>
-
 #include "tracing/judgement/evidence.h"
 
 namespace gumshoe::tracing {
@@ -10,11 +8,11 @@ namespace gumshoe::tracing {
 /// drift that levels off, or a wave goes before a free curve in the same condition that does not exclude it: it goes on
 /// beyond the readings. One that depends on less goes before a product or a table: a step of one operator before a
 /// slope of his along the positions, and any value for each operator before a table by machine and operator; a straight
-/// line in time before blocks that differ; a lower power before a higher one, and a bend before a cubic. Then, where noise is declared, a shape of
-/// one size that leaves noise as it was declared goes before one that leaves more, for which correlated noise would
-/// have to make up: a jump before a cubic in time.
-/// A step in time goes before a pulse that is not over in what is fitted, and before a gradual change, that do not
-/// exclude it. At last a step and a block, or a pass, that differs, where they are the same in what is fitted.
+/// line in time before blocks that differ; a lower power before a higher one, and a bend before a cubic. Then, where
+/// noise is declared, a shape of one size that leaves noise as it was declared goes before one that leaves more, for
+/// which correlated noise would have to make up: a jump before a cubic in time. A step in time goes before a pulse that
+/// is not over in what is fitted, and before a gradual change, that do not exclude it. At last a step and a block, or a
+/// pass, that differs, where they are the same in what is fitted.
 /// @param tried       best first, at least one
 /// @param steps_last  a step lasts; false: that was refuted, and the block differs
 void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried, bool steps_last);
@@ -31,14 +29,10 @@ std::optional<Trial> lasting_in_place_of(const TraceContext& context, const Evid
 /// takes that of errors that are zero at either end.
 bool is_one_of_several_forms(const Evidence& evidence, std::size_t shape);
 
-/// How the remark of rivals_of begins, and what follows a rival that was with the shape in every reading.
-inline constexpr std::string_view rivals_begin = "these data cannot distinguish it from ",
-                                  never_apart = " (the same in every reading)";
-
-/// "these data cannot distinguish it from ...": shapes of one size that depend on something else and describe the
-/// readings as well as `a` does: a drift with the order, or with a temperature that rose meanwhile. Empty: none.
-/// A step in time at the edge of the block that differs says the same, and is no rival.
-std::string rivals_of(const TraceContext& context, const Evidence& evidence, std::size_t a,
-                      const std::vector<Trial>& tried);
+/// Shapes of one size that depend on something else and describe the readings as well as `a` does: a drift with the
+/// order, or with a temperature that rose meanwhile. A step in time at the edge of the block that differs says the
+/// same, and is no rival.
+std::vector<RivalShape> rivals_of(const TraceContext& context, const Evidence& evidence, std::size_t a,
+                                  const std::vector<Trial>& tried);
 
 } // namespace gumshoe::tracing
