@@ -66,6 +66,32 @@ class InOneFolder(unittest.TestCase):
         cls.folder = pathlib.Path(temporary.name)
 
 
+class Refusals(InOneFolder):
+    """A good scenario, its result and a table, next to which bad ones are refused."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.good = cls.folder / "good.toml"
+        cls.good.write_text(SCENARIO)
+        cls.result = cls.folder / "good.h5"
+        run = gumshoe("run", cls.good, "--samples", 1000, "--out", cls.result)
+        assert run.returncode == 0, run.stderr
+        cls.table = cls.folder / "good.csv"
+        cls.table.write_text("rod_radius (mm)\n5\n")
+
+    def refused(self, run, words=(), stdout=""):
+        self.assertIsNone(complaint(run), run.stderr[:500])
+        self.assertEqual(run.stdout or "", stdout)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+
 HUNG = 600  # seconds after which a program hangs, on any machine
 
 
