@@ -175,7 +175,7 @@ private:
     state_repeats_of_files(out.used);
   }
 
-  /// Files of one pattern that no label tells apart are taken for repeats, which may not be meant.
+  /// Notes which readings are means over files of one pattern, because no label tells the files apart.
   void state_repeats_of_files(const std::vector<Readouts>& readings) const {
     const Csv& csv = *file_->csv;
     const auto of_several = std::ranges::count_if(readings, [&](const Readouts& r) {

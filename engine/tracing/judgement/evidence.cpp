@@ -321,7 +321,7 @@ bool explains_few(const TraceContext& c, const JointFit& without, const JointFit
     const Whitened plain(fit.design, c.fitter.rows(), use, {}), white(plain, model);
     const Matrix left = plain.winsorised(plain.take(fit.residual));
     if (model.scatter < 0) return Vector(white.left_over(left).array().square());
-    // Of groups that scatter, what their draws cost counts too, and is shared by their readings.
+    // Where groups scatter, the cost of their draws counts, too; the readings of a group share it.
     const Matrix units = white.in_units(left);
     return Vector(units.array() * white.weighted_units(units).array());
   };
