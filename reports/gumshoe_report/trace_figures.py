@@ -11,7 +11,7 @@ from . import compensation
 from .choice import axis_label
 from .figures import BAND, BLUE, GREY, GRID, INK, NOISE, ORANGE, PALE, RULE, svg
 from .rounding import finer
-from .trace import axis_unit
+from .trace_axes import axis_unit
 
 SIDES = (("before", ORANGE), ("after", BLUE))
 WIDE = 9.2  # inches, of the figures with many points

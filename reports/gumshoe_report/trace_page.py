@@ -4,7 +4,7 @@ import types
 
 import markupsafe
 
-from . import figures, trace, trace_figures
+from . import figures, trace, trace_axes, trace_figures
 
 DRAWN = 8  # conditions in the figure of residuals
 OF_RUNS = "the readings are treated as exact"  # a note on runs: tracing takes the noise from the residuals
@@ -16,8 +16,8 @@ def residual_figures(t, k, indication):
     if sum(math.isfinite(r.before) for r in rows) < 2:
         return None
     crosses, triangles = trace_figures.marks(rows)
-    varying = trace.columns(t)
-    labels = trace.labels(t)
+    varying = trace_axes.columns(t)
+    labels = trace_axes.labels(t)
     drawings = {"order": trace_figures.in_order(rows, f"o{k}"),
                 "against": trace_figures.against(rows, varying[:DRAWN], f"a{k}") if varying else "",
                 "labels": trace_figures.by_label(rows, labels, t.blocks, f"l{k}")}

@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
-from gumshoe_report import csv_tables, page, read, trace, trace_figures
+from gumshoe_report import csv_tables, page, read, trace, trace_axes, trace_figures
 
 KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "lack_of_fit",
          "insufficient_data")
@@ -285,8 +285,8 @@ class Page(Made):
         drawn = []
         with unittest.mock.patch.object(trace_figures, "svg", lambda figure, *_: drawn.append(figure) or ""):
             trace_figures.in_order(rows, "o")
-            trace_figures.against(rows, trace.columns(r.trace), "a")
-            trace_figures.by_label(rows, trace.labels(r.trace), "setup", "l")
+            trace_figures.against(rows, trace_axes.columns(r.trace), "a")
+            trace_figures.by_label(rows, trace_axes.labels(r.trace), "setup", "l")
         for figure in drawn[:2]:
             axes = figure.axes[0]  # before
             for marker in "^v":

@@ -14,7 +14,7 @@ from program import ROOT
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import names, trace, trace_figures
+from gumshoe_report import names, trace, trace_axes, trace_figures
 
 
 class Words(unittest.TestCase):
@@ -67,7 +67,7 @@ class Words(unittest.TestCase):
             self.assertAlmostEqual(axes.lines[0].get_xdata()[-1], to)
             column = types.SimpleNamespace(**own, values=[p.x for p in points])
             t = types.SimpleNamespace(findings=[], data=types.SimpleNamespace(columns={"time": column}, conditions={}))
-            (name, along, values, _), = trace.columns(t)
+            (name, along, values, _), = trace_axes.columns(t)
             self.assertEqual((name, along, values[-1]), ("time", unit, to))
 
     def test_averages_lie_on_a_line(self):
