@@ -56,6 +56,7 @@ FORMS = {"declared": lambda rest: f"{of_quantity(rest)} (declared)",
          "hysteresis": lambda rest: f"direction of motion of {plain(rest)}",
          "wave": lambda rest: f"a wave along {plain(rest)}",
          "drift": lambda rest: f"drift that levels off in {plain(rest)}",
+         "lag": lambda rest: f"delayed effect of {plain(rest)}",
          "step": lambda rest: f"offset of {of_label(rest)}"}
 
 

@@ -27,6 +27,7 @@ class Words(unittest.TestCase):
                            ("while:time with tool_id T_2 from reading 14 to reading 31", "difference of tool id T_2 from reading 14 to reading 31"),
                            ("bend:time with tool_id T_2 after reading 14", "bend of tool id T_2 after reading 14"),
                            ("bend:time after reading 14", "bend after reading 14"),
+                           ("lag:air_temperature", "delayed effect of air temperature"),
                            ("while:time from reading 14 to reading 31", "difference from reading 14 to reading 31"),
                            ("declared:rod_length[rod R_2]", "length of rod R_2 (declared)"),
                            ("declared:tool_id_offset[tool_id T_2]", "offset of tool id T_2 (declared)")):

@@ -43,8 +43,8 @@ struct Amplitude {
 
 /// One signature that is tried.
 /// A shape of one unknown parameter, over the range of what it runs along: the cycles of a wave, the logarithm of the
-/// time constant of a drift that levels off.
-enum class Form { fixed, wave, drift };
+/// time constant of a drift that levels off, or of a condition that acts late.
+enum class Form { fixed, wave, drift, lag };
 
 struct Candidate {
   std::string name;  ///< "trigger_latency", "rod_runout[rod 2]", "declared:rod_length[rod 2]", "polynomial:feed^2"

@@ -11,7 +11,7 @@ namespace gumshoe::tracing {
 using Gain = std::function<Vector(const Matrix& columns, Index each, double share)>;
 inline constexpr Index at_once = 64; ///< columns of which the gain is sought together, by memory
 
-/// The same wave or drift with another parameter. @param shape  of Form::wave or Form::drift
+/// The same wave, drift or lag with another parameter. @param shape  not of Form::fixed
 Candidate with_parameter(const Observations& observations, const Candidate& shape, double parameter);
 
 } // namespace gumshoe::tracing

@@ -117,14 +117,31 @@ public:
     return counts_readings(covariate) ? text + ", per reading" : text;
   }
 
-  /// "38 min, u = 4 min; until it levels off it changes by 6.1 um, u = 0.3 um" of a drift; empty of anything else.
+  /// "38 min, u = 4 min" of a drift or a lag; empty of anything else.
   std::string time_constant(const Covariate& time) const {
-    if (term_.candidate.form != Form::drift || term_.size.size() != 1 || !(term_.candidate.parameter_u > 0)) return "";
-    const double constant = std::exp(term_.candidate.parameter) * (time.levels.back() - time.levels.front());
-    return fmt::format("{}; until it levels off it changes by {}",
-                       with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit, counted(time)),
-                       with_u(term_.size[0], std::max(term_.candidate.size_u, std::sqrt(covariance_(0, 0))), unit_,
-                              empty_.indication_si_unit));
+    const Candidate& a = term_.candidate;
+    if (!(a.form == Form::drift || a.form == Form::lag) || term_.size.size() != 1 || !(a.parameter_u > 0)) return "";
+    const double constant = std::exp(a.parameter) * (time.levels.back() - time.levels.front());
+    return with_u(constant, constant * a.parameter_u, unit_of_duration(time, constant), time.si_unit, counted(time));
+  }
+
+  /// "38 min, u = 4 min; until it levels off it changes by 6.1 um, u = 0.3 um" of a drift; empty of anything else.
+  std::string drift(const Covariate& time) const {
+    const std::string constant = term_.candidate.form == Form::drift ? time_constant(time) : "";
+    if (constant.empty()) return "";
+    return fmt::format("{}; until it levels off it changes by {}", constant,
+                       with_u(term_.size[0], size_u(), unit_, empty_.indication_si_unit));
+  }
+
+  /// "time constant 38 min, u = 4 min; in the end 1.5 um/K, u = 0.1 um/K" of a lag; empty of anything else.
+  std::string lag(const Covariate& condition, const Covariate& time) const {
+    const std::string constant = term_.candidate.form == Form::lag ? time_constant(time) : "";
+    if (constant.empty()) return "";
+    const double range = condition.levels.back() - condition.levels.front();
+    const std::string per = units::difference_unit(condition.unit, condition.si_unit);
+    return fmt::format("time constant {}; once it has settled {}", constant,
+                       with_u(term_.size[0] / range, size_u() / range, units::quotient(unit_, per),
+                              units::quotient(empty_.indication_si_unit, condition.si_unit)));
   }
 
   /// "period 3.31 s, u = 0.01 s; amplitude 1.5 um, u = 0.2 um" of a wave; empty of anything else.
@@ -142,8 +159,8 @@ public:
           shown_period(covariate, range / cycles), fmt::join(others, " or "),
           with_u(amplitude, u, unit_, empty_.indication_si_unit));
     return fmt::format("period {}; amplitude {}{}",
-                       with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
-                              covariate.si_unit, counted(covariate)),
+                       with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u,
+                              unit_of_duration(covariate, range / cycles), covariate.si_unit, counted(covariate)),
                        with_u(amplitude, u, unit_, empty_.indication_si_unit), aliases(covariate, range / cycles));
   }
 
@@ -261,6 +278,9 @@ public:
 private:
   static constexpr std::size_t none = ~std::size_t{0}; ///< no group
 
+  /// Of a single size, whatever the parameter of its form is.
+  double size_u() const { return std::max(term_.candidate.size_u, std::sqrt(covariance_(0, 0))); }
+
   /// The mean over the training readings of a group, if there are any.
   bool add(double x, const std::vector<std::size_t>& group, std::size_t which, Curve& out) const {
     const Matrix& columns = term_.candidate.columns;
@@ -339,7 +359,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
   if (of_one) {
     if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
       finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
-    else if (const std::string drift = labels.empty() ? make.time_constant(*covariates[0]) : ""; !drift.empty())
+    else if (const std::string drift = labels.empty() ? make.drift(*covariates[0]) : ""; !drift.empty())
       finding.remarks.push_back("time constant " + drift);
     else if (const std::string waves = labels.empty() ? make.waves_per_turn(*covariates[0]) : ""; !waves.empty())
       finding.remarks.push_back(fmt::format("per turn of {}: {}", covariates[0]->name, waves));
@@ -357,6 +377,9 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
                                                                                                            : "";
              !step.empty()) {
     finding.remarks.push_back("it differs by " + step);
+  } else if (const std::string lag = covariates.size() == 2 ? make.lag(*covariates[0], *covariates[1]) : "";
+             !lag.empty()) {
+    finding.remarks.push_back(fmt::format("it follows {} with a lag: {}", covariates[0]->name, lag));
   } else if (shape.rare() && covariates.size() == 1) {
     finding.remarks.push_back(
         fmt::format("{} alone has {}a straight line against {}: {}", quantities::text_of(shape.amplitudes[0].labels),

@@ -77,18 +77,22 @@ std::vector<double> alike(const Vector& along, const Vector& wave, double period
   return out;
 }
 
-std::string shown_period(const Covariate& c, double period) {
-  if (c.si_unit != "s" || c.unit != "s") return shown_size(period, c.unit, c.si_unit);
+std::string unit_of_duration(const Covariate& c, double duration) {
+  if (c.si_unit != "s" || c.unit != "s") return c.unit;
   for (const auto& [unit, seconds] : {std::pair{"d", 86400.0}, {"h", 3600.0}, {"min", 60.0}})
-    if (period >= 2 * seconds) return fmt::format("{:.2g} {}", period / seconds, unit);
-  return fmt::format("{:.2g} s", period);
+    if (duration >= 2 * seconds) return unit;
+  return "s";
+}
+
+std::string shown_period(const Covariate& c, double period) {
+  return shown_size(period, unit_of_duration(c, period), c.si_unit);
 }
 
 std::string aliases(const Covariate& c, double period) {
   const std::vector<double> levels = places(c);
   const double step = even_step(levels, criteria.uneven_step), range = levels.back() - levels.front();
   if (!(step > 0) || 2 * step * static_cast<double>(levels.size()) < range) return ""; // few of its multiples
-  const auto shown = [&](double x) { return shown_size(x, c.unit, c.si_unit); };
+  const auto shown = [&](double x) { return shown_size(x, unit_of_duration(c, x), c.si_unit); };
   // At two steps a period, the first is the wave itself.
   const double longer = 1 / (1 / step - 1 / period), shorter = 1 / (1 / step + 1 / period);
   return fmt::format("; read in steps of {}, {} look{} the same", shown(step),

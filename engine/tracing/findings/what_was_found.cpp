@@ -121,6 +121,12 @@ std::string told(const std::vector<std::string>& members) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
+/// The condition that acts late, in "lag:temp_degc"; empty of any other shape.
+std::string late(const std::string& shape) {
+  const std::string kind = "lag:";
+  return shape.starts_with(kind) ? shape.substr(kind.size(), shape.find(' ') - kind.size()) : "";
+}
+
 /// Others that describe the readings as well as a shape does: what always went with it, and what did not.
 struct Rivals {
   std::vector<std::string> never_apart; ///< "machine M2", "temp_degc": of the same sort as the shape
@@ -144,6 +150,8 @@ InWords in_words(const std::string& shape) {
     return {readings, fmt::format("a difference{} {}", with, readings), false, with.empty()};
   if (const auto [with, reading] = bend_of(shape); !reading.empty())
     return {reading, fmt::format("a steady change{} from {} on", with, reading), false, with.empty()};
+  if (const std::string condition = late(shape); !condition.empty())
+    return {condition, "a delayed effect of " + condition, false, false};
   std::string on = rest.substr(0, rest.find_first_of("^ "));
   if (on.starts_with("1/")) on.erase(0, 2);
   return {on, "an effect of " + on, false, on.find('*') == std::string::npos};
@@ -246,6 +254,8 @@ std::string found_alone(const Finding& f, const std::string& of) {
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
       return fmt::format("Something changed about {}, not at once: after that {} differ by a constant.", reading,
                          readings);
+    if (const std::string condition = late(f.described_by); !condition.empty())
+      return fmt::format("An unknown effect makes {} follow {} with a delay.", readings, condition);
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
@@ -295,6 +305,8 @@ std::string briefly_alone(const Finding& f) {
     if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
     if (const std::string reading = shift_of(f.described_by); !reading.empty())
       return "a gradual step about " + reading;
+    if (const std::string condition = late(f.described_by); !condition.empty())
+      return "a delayed effect of " + condition;
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("an unknown effect of {} on {} alone", f.depends_on[0], part);
     return "an unknown effect of " + depends_on;

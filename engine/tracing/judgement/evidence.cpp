@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "tracing/candidates/courses.h"
+#include "tracing/candidates/lags.h"
 #include "tracing/candidates/shapes.h"
 #include "tracing/candidates/waves.h"
 #include "tracing/criteria.h"
@@ -184,6 +185,7 @@ void Evidence::add_sought(const std::set<std::string>& dropped) {
     const Gain in_time = about_cells ? gain_under(*about_cells, residual) : Gain{};
     std::ranges::move(waves(c_.observations, known, gain, in_time), std::back_inserter(sought));
     std::ranges::move(courses(c_.observations, c_.fitter.rows(), gain), std::back_inserter(sought));
+    std::ranges::move(lags(c_.observations, gain), std::back_inserter(sought));
   }
   for (Candidate& a : sought) {
     const bool twice = std::ranges::any_of(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracing/candidates/forms.h"
+#include "tracing/candidates/lags.h"
 #include "tracing/criteria.h"
 #include "tracing/judgement/apart.h"
 
@@ -24,10 +25,13 @@ Vector derivative(const Observations& o, const Term& term) {
 }
 
 /// The step that is taken where one of `wanted` is best.
-double step_of(const Candidate& shape, double wanted) {
+double step_of(const Observations& o, const Candidate& shape, double wanted) {
   const double by = std::clamp(wanted, -farthest, farthest);
-  if (shape.form != Form::drift) return by;
-  return std::clamp(shape.parameter + by, std::log(criteria.shortest), std::log(criteria.longest)) - shape.parameter;
+  if (shape.form == Form::wave) return by;
+  const auto [low, high] = shape.form == Form::lag
+                               ? limits_of_lag(*std::ranges::find(o.covariates, shape.depends_on[1], &Covariate::name))
+                               : std::pair(std::log(criteria.shortest), std::log(criteria.longest));
+  return std::clamp(shape.parameter + by, low, high) - shape.parameter;
 }
 
 bool has_parameter(const Term& t) {
@@ -57,7 +61,7 @@ JointFit with_tuned_forms(const TraceContext& c, JointFit fit) {
       if (at == use.end()) continue;
       const Index j = at - use.begin();
       Term& term = terms[sought[index(w)]];
-      const double u = std::sqrt(covariance(j, j) * fit.variance), by = step_of(term.candidate, x[j]);
+      const double u = std::sqrt(covariance(j, j) * fit.variance), by = step_of(c.observations, term.candidate, x[j]);
       const std::size_t t = sought[index(w)];
       fit.terms[t].candidate.parameter_u = term.candidate.parameter_u = u;
       if (const auto size = std::ranges::find(use, first_column(fit, t)); size != use.end())

@@ -226,6 +226,8 @@ std::vector<RivalShape> rivals_of(const TraceContext& c, const Evidence& e, std:
     if (t.candidate == a || own.columns.cols() != 1 || other.columns.cols() != 1 ||
         other.depends_on == own.depends_on || !(std::fabs(t.ratio - ratio) <= criteria.equal_shapes))
       continue;
+    // A short lag is hardly one: of the same condition it is no other cause.
+    if (other.form == Form::lag && own.depends_on[0] == other.depends_on[0]) continue;
     const double alike = cosine(own, other);
     const bool edge = (of_blocks(c, own) && is_lasting_step(other, c.observations)) ||
                       (of_blocks(c, other) && is_lasting_step(own, c.observations));

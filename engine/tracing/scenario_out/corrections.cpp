@@ -273,9 +273,11 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
       out.label = &g;
       return out;
     }
-  const auto keys = keys_of(c, depends_on);
+  // What a condition leaves behind is known by when, and not by the condition.
+  const auto by = term.candidate.form == Form::lag ? std::vector{depends_on[1]} : depends_on;
+  const auto keys = keys_of(c, by);
   std::optional<Rows> rows;
-  std::size_t used = depends_on.size();
+  std::size_t used = by.size();
   for (; used > 0 && used <= keys.size(); ++used)
     if ((rows = rows_by(o, loading, std::span(keys).first(used)))) break;
   if (!rows) return std::nullopt;
