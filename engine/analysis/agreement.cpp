@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
 #include "base/error.h"
 #include "base/special_values.h"
@@ -36,8 +37,10 @@ std::vector<ContributionChange> changes(const Budget* before, const Budget* afte
 /// Square of an uncertainty of the difference; a negative one is the first order's rounding.
 double root(double square) { return square > 0 ? std::sqrt(square) : square <= 0 ? 0 : nan; }
 
-Agreement agreement(const Summary& before, const Summary& after, const Budget* budget_before,
+Agreement agreement(const Summary& samples_before, const Summary& samples_after, const Budget* budget_before,
                     const Budget* budget_after, const std::vector<std::string>& same) {
+  const Summary before = with_stated_uncertainty(samples_before, budget_before),
+                after = with_stated_uncertainty(samples_after, budget_after);
   Agreement out;
   out.before = before, out.after = after;
   out.after.output.unit = before.output.unit;

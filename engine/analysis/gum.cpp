@@ -352,8 +352,10 @@ Validation validate(const Budget& b, const Summary& s, double coverage_probabili
     v.reason = "an end differs by more than delta";
   } else if (v.monte_carlo_tolerance > v.delta / 5) {
     v.verdict = "undecided";
+    const double needed = n * std::pow(5 * v.monte_carlo_tolerance / v.delta, 2),
+                 digit = std::pow(10, std::floor(std::log10(needed)));
     v.reason = fmt::format("the Monte Carlo tolerance exceeds a fifth of delta; about {:.1g} trials are needed",
-                           n * std::pow(5 * v.monte_carlo_tolerance / v.delta, 2));
+                           std::ceil(needed / digit) * digit);
   } else if (worst > v.delta) {
     v.verdict = "undecided";
     v.reason = "the difference of an end and delta agree within the Monte Carlo tolerance; use more samples";
@@ -379,6 +381,15 @@ bool accounts_for_variance(const Budget& b, const Summary& s) {
   const double law = wider * b.combined_standard_uncertainty * b.combined_standard_uncertainty;
   const double error = std::isfinite(s.standard_uncertainty_se) ? 4 * u * s.standard_uncertainty_se : 0;
   return std::fabs(u * u - law) <= apart * u * u + error;
+}
+
+Summary with_stated_uncertainty(Summary s, const Budget* b) {
+  if (std::isfinite(s.standard_uncertainty) || !b || !b->applicable || !(b->combined_standard_uncertainty > 0))
+    return s;
+  s.standard_uncertainty = b->combined_standard_uncertainty;
+  s.expanded_uncertainty = b->expanded_uncertainty;
+  s.coverage_factor = b->coverage_factor;
+  return s;
 }
 
 } // namespace gumshoe::analysis

@@ -48,6 +48,10 @@ double variance_over_scale(const Contribution& contribution);
 /// Otherwise the shares of the law are not those of the variance.
 bool accounts_for_variance(const Budget& budget, const Summary& summary);
 
+/// The summary with u, U and k of the budget, where its samples have no variance (a t with two degrees of freedom or
+/// fewer) and the framework applies; else as it is. @param budget  may be null
+Summary with_stated_uncertainty(Summary summary, const Budget* budget);
+
 /// "per setup", "per rod, setup", "" for a draw that all readings share.
 std::string scope_text(const quantities::Component& component);
 

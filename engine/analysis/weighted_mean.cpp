@@ -45,11 +45,14 @@ public:
 private:
   std::size_t size() const { return out_.parts.size(); }
 
-  void add(std::size_t i, const NamedResult& result, const Summary& s) {
-    const std::string where = result.name + ": " + s.output.name;
+  void add(std::size_t i, const NamedResult& result, const Summary& of_samples) {
+    const std::string where = result.name + ": " + of_samples.output.name;
+    const Budget* b = budget_of(result.results, of_samples.output.name);
+    const Summary s = with_stated_uncertainty(of_samples, b);
     const double u = s.standard_uncertainty;
     if (!(u > 0) || !std::isfinite(u) || !std::isfinite(s.estimate))
       throw InputError(where + " has no standard uncertainty", "its weight would not be known", "leave the result out");
+    if (!std::isfinite(of_samples.standard_uncertainty)) without_variance_.push_back(where);
     if (out_.parts.empty()) out_.mean.output = s.output;
     const propagation::Output& first = out_.mean.output;
     if (s.output.si_unit != first.si_unit)
@@ -60,15 +63,18 @@ private:
     part.summary = s;
     part.summary.output.unit = first.unit;
     out_.parts.push_back(part);
-    budgets_.push_back(budget_of(result.results, s.output.name));
+    budgets_.push_back(b);
     names_.push_back(where);
-    const Budget* b = budgets_.back();
     by_framework_ =
         by_framework_ && b && b->applicable && b->combined_standard_uncertainty > 0 && accounts_for_variance(*b, s);
   }
 
   /// One kind of u for all: a mean must not move because one result has enough samples to be validated.
   void settle_uncertainties() {
+    if (!by_framework_ && !without_variance_.empty())
+      throw InputError(without_variance_[0] + " has no variance by Monte Carlo",
+                       "the framework, which states its standard uncertainty, does not account for that of the others",
+                       "leave the result out");
     for (std::size_t i = 0; i < size(); ++i) {
       Summary& s = out_.parts[i].summary;
       s.degrees_of_freedom = infinite;
@@ -219,6 +225,7 @@ private:
   bool by_framework_ = true;
   std::vector<const Budget*> budgets_; ///< by part; null: none
   std::vector<std::string> names_;     ///< by part: "a.h5: laser_z"
+  std::vector<std::string> without_variance_; ///< by Monte Carlo
   WeightedMean out_;
 };
 

@@ -342,8 +342,9 @@ std::string csv_quoted(const std::string& text) {
   return out + '"';
 }
 
-std::string csv_cell(const std::string& text) {
-  return text.find_first_of(",\"\n\r") == std::string::npos ? text : csv_quoted(text);
+std::string csv_cell(const std::string& text, char separator) {
+  const bool plain = text.find(separator) == std::string::npos && text.find_first_of("\"\n\r") == std::string::npos;
+  return plain ? text : csv_quoted(text);
 }
 
 Csv read_csv(const std::string& path, std::size_t limit) { return parse_csv(read_data_file(path, limit), path); }

@@ -56,9 +56,9 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
 Csv join_csv(std::vector<Csv> parts, const std::string& name,
              const std::vector<std::pair<std::string, std::vector<std::string>>>& added);
 
-/// A cell as a table separated by commas takes it: between quotes, its own doubled; csv_cell only where it must be.
+/// A cell as a table takes it: between quotes, its own doubled; csv_cell only where it must be.
 std::string csv_quoted(const std::string& text);
-std::string csv_cell(const std::string& text);
+std::string csv_cell(const std::string& text, char separator = ',');
 
 /// parse_csv of a file; refuses files of more than `limit` bytes.
 Csv read_csv(const std::string& path, std::size_t limit = std::size_t{1} << 30);

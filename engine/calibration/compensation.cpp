@@ -66,7 +66,7 @@ public:
       kept.push_back(source);
       out_.holds.push_back(source.name);
     }
-    name_known();
+    name_set_up(whole);
     if (kept.empty() && request_.only.empty()) refuse_nothing();
     const std::vector<double> held = minus(whole, indications(without));
     gather_deviations(whole, minus(whole, indications(base)));
@@ -205,15 +205,26 @@ private:
     return out;
   }
 
-  /// Quantities of the model that these data gave, such as a gain, of which the caller did not speak.
-  void name_known() {
+  /// Quantities of the model, such as a gain, of which the caller did not speak: that these data gave, or that shift
+  /// the readings from what they are at zero.
+  void name_set_up(const std::vector<double>& whole) {
     for (std::size_t q = 0; q < card_.quantities.size(); ++q) {
       const std::string name(card_.quantities[q].name);
+      if (std::ranges::find(request_.with, name) != request_.with.end()) continue;
       const bool known = s_.quantities[q].estimated || std::ranges::find(s_.trace.free, name) != s_.trace.free.end();
-      if (known && std::ranges::find(request_.with, name) == request_.with.end())
-        out_.left_out.push_back(
-            {name, "is a quantity of the model and may be the set-up's (--with " + name + " adds it)"});
+      if (!known && !shifts(q, whole)) continue;
+      out_.set_up.push_back(name);
+      out_.left_out.push_back(
+          {name, "is a quantity of the model and may be the set-up's (--with " + name + " adds it)"});
     }
+  }
+
+  /// Whether a quantity that is zero unless it is stated moves a reading by its value.
+  bool shifts(std::size_t q, const std::vector<double>& whole) const {
+    if (card_.quantities[q].default_value != 0 || at_[0][q] == 0) return false;
+    Points less = at_;
+    set_null({"", {{q, 0}}}, less);
+    return indications(less) != whole;
   }
 
   static void set_null(const Source& source, Points& at) {

@@ -35,6 +35,7 @@ struct Compensation {
     std::string name, why; ///< "also depends on ..."
   };
   std::vector<LeftOut> left_out;
+  std::vector<std::string> set_up; ///< quantities of the model that are taken for the set-up's: left out, and no error
   /// A declared quantity on which the errors depend, directly or because the fit of their sizes held it.
   struct Declared {
     std::string name;

@@ -29,6 +29,7 @@ double slope(Loss loss, double r, double width) {
 
 void Fit::describe(Estimate& out) const {
   out.notes = data_.notes;
+  out.notes.insert(out.notes.end(), notes_.begin(), notes_.end());
   out.noise_declared = data_.noise_declared;
   out.loss = loss_;
   out.loss_width = loss_ == Loss::squared ? 0 : width_;

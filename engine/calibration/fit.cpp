@@ -31,6 +31,11 @@ Fit::Fit(const propagation::Experiment& e, const Options& options)
 
 void Fit::solve() {
   for (const Unknown& u : unknowns_) x_.push_back(u.start);
+  solve_from_start();
+  begin_elsewhere();
+}
+
+void Fit::solve_from_start() {
   if (data_.noise_declared || (loss_ == Loss::squared && priors_.target.empty()))
     solve_at(1);
   else

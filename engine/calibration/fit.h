@@ -1,5 +1,6 @@
 #pragma once
 /// The least-squares fit behind an estimate: solved first, then described. Of calibration alone.
+#include <string>
 #include <vector>
 
 #include "calibration/estimate.h"
@@ -26,6 +27,12 @@ public:
 private:
   using Loss = least_squares::Loss;
   void check() const;
+  void solve_from_start();
+  /// Where the indications do not depend on an unknown at the values reached, but do at a multiple of its start:
+  /// from there, if that fit is better and knows all (fit_elsewhere.cpp).
+  void begin_elsewhere();
+  std::vector<std::size_t> unseen() const;
+  bool acts_at(std::size_t unknown, double value) const;
   /// Whitened residuals over `sigma`, and their Jacobian.
   bool evaluate(const double* x, double* r, double* jacobian, double sigma) const;
   void solve_with(Loss loss, double width, double sigma, bool with_priors);
@@ -56,6 +63,7 @@ private:
   double sigma_ = 1, cost_before_ = 0;
   int iterations_ = 0, evaluations_ = 0;
   bool scale_settled_ = true;
+  std::vector<std::string> notes_; ///< of the starts
 };
 
 } // namespace gumshoe::calibration

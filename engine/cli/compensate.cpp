@@ -72,8 +72,8 @@ void print_left(const calibration::Compensation& of, const calibration::AppliedT
   const auto shown = [&](double x) { return error_text(x, of); };
   for (const auto& left : calibration::left_with(of, table)) {
     std::cerr << fmt::format("root mean square of {}{}: {}, with the table {}", left.which,
-                             of.left_out.empty() ? "" : ", less what is left out", shown(left.before),
-                             shown(left.with));
+                             of.set_up.empty() ? "" : fmt::format(", less {}", fmt::join(of.set_up, " and ")),
+                             shown(left.before), shown(left.with));
     if (left.with > 1.01 * left.without)
       std::cerr << fmt::format(", of which {} is noise and the rest what is left out, interpolated or rounded",
                                shown(left.without));

@@ -14,25 +14,37 @@ namespace gumshoe::cli {
 
 namespace {
 
-std::string to_csv(const Csv& in, const propagation::PointTable& added) {
-  std::string text;
-  if (added.joint) { // one row of results for the whole table
-    for (const std::string& name : added.header) text += name + ',';
-    text += "status\n";
-    for (const auto& column : added.columns)
-      text += added.status[0] == "ok" ? fmt::format("{:.15g},", column[0]) : "nan,";
-    return text + added.status[0] + '\n';
+/// Cells in the form of the table that was read: where the comma is its decimal sign, with semicolons between them.
+class Rows {
+public:
+  explicit Rows(char decimal) : separator_(decimal == ',' ? ';' : ',') {}
+  void cell(const std::string& text) { text_ += csv_cell(text, separator_) + separator_; }
+  void number(double x, const std::string& status) {
+    std::string digits = status == "ok" ? fmt::format("{:.15g}", x) : "nan";
+    if (separator_ == ';') std::ranges::replace(digits, '.', ',');
+    cell(digits);
   }
-  for (const CsvCell& cell : in.header) text += csv_cell(cell.text) + ',';
-  for (const std::string& name : added.header) text += name + ',';
-  text += "status\n";
-  for (std::size_t r = 0; r < in.rows.size(); ++r) {
-    for (const CsvCell& cell : in.rows[r]) text += csv_cell(cell.text) + ',';
-    for (const auto& column : added.columns)
-      text += added.status[r] == "ok" ? fmt::format("{:.15g},", column[r]) : "nan,";
-    text += added.status[r] + '\n';
+  void end(const std::string& status) { text_ += status + '\n'; }
+  std::string take() { return std::move(text_); }
+
+private:
+  char separator_;
+  std::string text_;
+};
+
+std::string to_csv(const Csv& in, const propagation::PointTable& added, char decimal) {
+  Rows out(decimal);
+  if (!added.joint) // else one row of results for the whole table
+    for (const CsvCell& cell : in.header) out.cell(cell.text);
+  for (const std::string& name : added.header) out.cell(name);
+  out.end("status");
+  for (std::size_t r = 0; r < added.status.size(); ++r) {
+    if (!added.joint)
+      for (const CsvCell& cell : in.rows[r]) out.cell(cell.text);
+    for (const auto& column : added.columns) out.number(column[r], added.status[r]);
+    out.end(added.status[r]);
   }
-  return text;
+  return out.take();
 }
 
 /// The model asked for: one of the catalogue, or that of a scenario, with its values.
@@ -85,7 +97,7 @@ void add_evaluate(CLI::App& app, Action& action) {
       const Asked of = asked(o->model);
       const Csv table = read_csv(o->table);
       const auto points = propagation::evaluate_points(*of.model, table, o->evaluation, of.values.get(), o->decimal[0]);
-      const std::string text = to_csv(table, points);
+      const std::string text = to_csv(table, points, o->decimal[0]);
       if (o->out.empty())
         std::cout << text;
       else

@@ -48,17 +48,17 @@ std::vector<std::pair<std::string, double>> limiting(const Result& r) {
 
 void print_text(const Result& r, const std::string& file) {
   const bool worst = r.asked.worst_case;
-  const Figures& best = asked(r.fresh, worst);
-  const auto u = [&](double si) { return width(r, si, best.expanded); };
+  // Two digits of every U; of a bias the decimals of its own.
+  const auto u = [&](double si) { return width(r, si, si); };
   if (!r.title.empty()) std::cout << printable(r.title) << '\n';
   std::cout << r.statement << '\n';
   const Figures& searched = asked(r.candidates[r.best], worst);
   std::cout << fmt::format("U of the average {}, bias {}, standard deviation {}; in the search U was {}\n",
-                           u(r.fresh.average.expanded), u(r.fresh.average.mean), u(r.fresh.average.standard_deviation),
-                           u(searched.expanded));
+                           u(r.fresh.average.expanded), width(r, r.fresh.average.mean, r.fresh.average.expanded),
+                           u(r.fresh.average.standard_deviation), u(searched.expanded));
   for (std::size_t k = 0; k < r.fresh.cases.size(); ++k)
     std::cout << fmt::format("case {}: U {}, mean error left {}\n", r.asked.cases[k].name, u(r.fresh.cases[k].expanded),
-                             u(r.fresh.cases[k].left));
+                             width(r, r.fresh.cases[k].left, r.fresh.cases[k].expanded));
   const auto limits = limiting(r);
   if (!limits.empty()) {
     std::string text;

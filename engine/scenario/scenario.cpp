@@ -96,6 +96,7 @@ public:
     if (auto analysis = top.table("analysis")) {
       out_.analysis = read_analysis(*analysis, {*model, out_.quantities}, context_);
       if (!out_.correlations.empty()) refuse_one_at_a_time(*analysis);
+      if (out_.analysis.sensitivity.shapley > 0) note_conditional_draws();
     }
     out_.expected = read_expected(top, *model, context_);
     if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
@@ -118,6 +119,16 @@ public:
   }
 
 private:
+  /// Shapley effects need some quantities given others, which samples of an earlier run do not hold.
+  void note_conditional_draws() {
+    for (const quantities::Correlation& c : out_.correlations)
+      if (!c.together.empty())
+        context_.note(fmt::format("Shapley effects: {} are drawn given one another as by a Gaussian copula with the "
+                                  "correlation of their samples. Where they depend on each other in another way, the "
+                                  "effects are approximate",
+                                  fmt::join(c.quantities, ", ")));
+  }
+
   /// A key of one section that stands outside of it, unless its name resembles a section's more.
   void refuse_misplaced(Table& top) {
     std::vector<std::string> names;

@@ -56,6 +56,8 @@ Budget read_budget(hid_t group, const propagation::Output& output) {
   if (out.applicable) {
     out.combined_standard_uncertainty = hdf5::read_number(group, "combined_standard_uncertainty");
     out.effective_degrees_of_freedom = hdf5::read_number(group, "effective_degrees_of_freedom");
+    out.coverage_factor = hdf5::read_number(group, "coverage_factor");
+    out.expanded_uncertainty = hdf5::read_number(group, "expanded_uncertainty");
   }
   if (!hdf5::has(group, "name")) return out; // without contributions
   auto& rows = out.contributions;

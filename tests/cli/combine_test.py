@@ -128,6 +128,21 @@ class Combine(Lengths):
         self.assertEqual(row["degrees_of_freedom"], 10)
         self.assertAlmostEqual(row["expanded_uncertainty"], 2.2281388520 * 0.003 / math.sqrt(2), delta=1e-9)
 
+    def test_a_mean_of_three_observations_has_the_uncertainty_of_the_framework(self):
+        """A t with two degrees of freedom has no variance, but u = s / sqrt(3) by GUM 4.2.3, and its U by G.4."""
+        few = self.result("few", change=lambda text: text.replace('u = "3 um"\n', "").replace(
+            'value = "110.0 mm"' if 'value = "110.0 mm"' in text else 'value = "10.0 mm"', 'observations = ["109.997 mm", "110.001 mm", "110.005 mm"]'))
+        row = self.mean(self.a, few)
+        va, vb = 3**2 + 4**2, 16 / 3 + 4**2
+        self.assertAlmostEqual(row["standard_uncertainty"] * 1000, math.sqrt(1 / (1 / va + 1 / vb)), delta=1e-9)
+        self.assertAlmostEqual(row["results"][1]["weight"], va / (va + vb), delta=1e-9)
+        said = gumshoe("compare", self.a, few, "--format", "json")
+        one = json.loads(said.stdout)["comparisons"][0]
+        self.assertAlmostEqual(one["standard_uncertainty"] * 1000, math.sqrt(va + vb), delta=2 * self.RELATIVE * 5)  # `before` is that of samples
+        self.assertAlmostEqual(one["after"]["standard_uncertainty"] * 1000, math.sqrt(vb), delta=1e-9)
+        self.assertGreater(one["after"]["expanded_uncertainty"] * 1000, K * math.sqrt(vb))  # k of few degrees of freedom
+        self.assertLess(abs(one["normalised_error"]), 1)
+
     def test_inconsistent_results_are_said(self):
         far = self.result("far", reading=110.030, u_reading=1)
         said = gumshoe("combine", self.a, far)

@@ -69,6 +69,19 @@ class Uncertainty(InOneFolder):
         self.assertIn("u contains the declared uncertainty of temperature_difference (up to 0.46 um)\n", run.stderr)
         self.assertNotIn("declared", quiet.stdout + quiet.stderr)
 
+    def test_what_the_readings_are_less_of_is_named(self):
+        """Offset and gain are fitted, but not in the table: 2 um and 30 um/m would stay in the readings that it is used for."""
+        self.estimated('temperature_difference = "0 K"')
+        places = [x for x in POSITIONS for _ in (1, -1)]
+        expected = {"offset and gain": [(0, 0)], "offset": [(0, 0.03)], None: [(2, 0.03)]}
+        for words, (less, [(offset, gain)]) in zip(((), ("--with", "gain"), ("--with", "gain", "--with", "offset")), expected.items()):
+            said = re.search(r"root mean square of these readings(?:, less ([a-z ]+))?: (\S+) um, with the table 0.0\d+ um",
+                             self.table(*words)[1].stderr)
+            # Of values (v + 1.5)^2 and (v - 1.5)^2 and noise; offset and gain are fitted within 0.02 um and 0.1 um/m.
+            rms = math.sqrt(sum((offset + gain * x) ** 2 for x in places) / len(places) + 1.5**2 + 0.05**2)
+            self.assertEqual(said[1], less)
+            self.assertAlmostEqual(float(said[2]), rms, delta=0.06)
+
     def test_what_a_quantity_that_is_left_out_takes_up_is_not_in_u(self):
         """The gain is the set-up's then, and the reversal is the same at every temperature."""
         self.estimated('temperature_difference = { value = "1 K", u = "0.1 K" }')

@@ -211,6 +211,22 @@ class Estimate(InFolder):
         fit = self.fit(noisy, data=DATA.replace("5.2", "0.0052"))
         self.assertTrue(any("declared noise explains" in n for n in fit["notes"]), fit["notes"])
 
+    def test_a_start_at_which_nothing_depends_on_a_quantity(self):
+        """exp(-t / tau) has decayed where tau starts a thousand times too short, and the data know it nevertheless."""
+        text = LINE.replace('"a + b * x"', '"a * exp(-x / b)"').replace('measurands = { at_10 = "a + 10 * b" }', 'measurands = { tau = "b" }')
+        data = "x,y\n0,5.01\n1,3.58\n2,2.57\n4,1.32\n8,0.345\n"
+        near = self.fit(text.replace("value = 1", "value = 3"), data)
+        for start in ("0.001", "0.0005"):
+            far = self.fit(text.replace("value = 1", f"value = {start}"), data)
+            for name in ("a", "b"):
+                for key in ("value", "standard_uncertainty"):
+                    self.assertAlmostEqual(far["parameters"][name][key] / near["parameters"][name][key], 1, delta=1e-6)
+            self.assertTrue(any(f"from {start}, as stated, the indications do not depend on it" in n for n in far["notes"]), far["notes"])
+        # What no reading knows stays unknown.
+        (self.folder / "results/line.estimated.toml").unlink()
+        unknown = self.refusal(text.replace('"a * exp(-x / b)"', '"a * exp(-x / 3) + 0 * b"'), data)
+        self.assertIn("b: the data do not determine it", unknown)
+
     def test_will_not_write_over_its_scenario(self):
         file = self.scenario()
         run = gumshoe("estimate", file, "--scenario-out", file)

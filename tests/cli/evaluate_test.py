@@ -67,8 +67,10 @@ class Evaluate(InFolder):
         run = self.run_text(text, "--decimal", ",")
         self.assertEqual(run.returncode, 0, run.stderr)
         same = self.run_text(text.replace(",", "."))
-        self.assertEqual(run.stdout.splitlines()[1].split(",", 4)[4], same.stdout.splitlines()[1].split(",", 2)[2])
-        self.assertTrue(run.stdout.splitlines()[1].startswith('"0,30","5,5",'), run.stdout)
+        self.assertEqual(run.stdout.replace(",", ".").replace(";", ","), same.stdout)
+        self.assertTrue(run.stdout.splitlines()[1].startswith("0,30;5,5;"), run.stdout)
+        again = "\n".join(";".join(row.split(";")[:2]) for row in run.stdout.splitlines()) + "\n"
+        self.assertEqual(self.run_text(again, "--decimal", ",").stdout, run.stdout)  # what is written is read
         other = self.run_text(text.replace("0,30", "0.30"), "--decimal", ",")
         self.assertIn("(the decimal sign must be a comma). Add --decimal \".\".", other.stderr)
 

@@ -62,7 +62,7 @@ class TraceAxis(InFolder):
             readings = [(float(r["x_mm"]), int(r["direction"]), float(r["deviation_um"]))
                         for r in csv.DictReader(line for line in file if not line.startswith("#"))]
         root_mean_square = lambda values: math.sqrt(sum(v * v for v in values) / len(values))
-        said = re.search(r"these readings(?:, less what is left out)?: (\S+) um, with the table (\S+) um, of which (\S+) um is noise and the rest what is left out", run.stderr)
+        said = re.search(r"these readings(?:, less [a-z_ ]+)?: (\S+) um, with the table (\S+) um, of which (\S+) um is noise and the rest what is left out", run.stderr)
         before, after, noise = map(float, said.groups())
         self.assertAlmostEqual(before / root_mean_square([d for _, _, d in readings]), 1, delta=6e-3)
         self.assertAlmostEqual(after / root_mean_square([d - table[x, way] for x, way, d in readings]), 1, delta=6e-3)
