@@ -142,6 +142,11 @@ class Combine(Lengths):
         self.assertAlmostEqual(one["after"]["standard_uncertainty"] * 1000, math.sqrt(vb), delta=1e-9)
         self.assertGreater(one["after"]["expanded_uncertainty"] * 1000, K * math.sqrt(vb))  # k of few degrees of freedom
         self.assertLess(abs(one["normalised_error"]), 1)
+        bend = '[quantities.zero]\nvalue = "110.004 mm"\n[quantities.bend]\nvalue = "1000 1/mm"\n[run]'
+        bent = self.result("bent_too", formula="reading - reference + bend * (reading - zero)^2", reading=110.004,
+                           change=lambda text: text.replace("[run]", bend))
+        self.refused("y has no variance by Monte Carlo (the framework, which states its standard uncertainty, does not account for that of the others). "
+                     "Leave the result out.", bent, few)
 
     def test_inconsistent_results_are_said(self):
         far = self.result("far", reading=110.030, u_reading=1)
