@@ -33,7 +33,7 @@ const std::vector<RoleWords>& role_words() {
         "campaign", "sweep",      "lap",       "umlauf",     "rev",       "revolution", "umdrehung"}},
       {ColumnRole::time,
        {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t", "elapsed", "seconds",
-        "sekunden", "minutes", "minuten", "hours", "stunden"}},
+        "sekunden", "minutes", "minuten", "hours", "stunden", "days", "tage"}},
       {ColumnRole::reading,
        {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
         "meas",     "actual",    "act",        "ist",     "diff",       "difference", "result", "value",
@@ -48,21 +48,32 @@ const std::vector<RoleWords>& role_words() {
 /// Spellings of units in headers.
 const std::map<std::string, std::string>& unit_words() {
   static const std::map<std::string, std::string> all{
-      {"um", "um"},         {"µm", "um"},         {"μm", "um"},         {"micron", "um"}, {"nm", "nm"},
-      {"mm", "mm"},         {"m", "m"},           {"km", "km"},         {"inch", "inch"}, {"in", "inch"},
-      {"deg", "deg"},       {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"}, {"urad", "urad"},
-      {"µrad", "urad"},     {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},     {"ms", "ms"},
-      {"min", "min"},       {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"},
-      {"C", "degC"},        {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"}, {"um/m", "um/m"},
-      {"%", "%"},           {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},     {"kN", "kN"},
-      {"MN", "MN"},         {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},     {"mV/V", "mV/V"},
-      {"mVV", "mV/V"},      {"bar", "bar"},       {"mbar", "mbar"},     {"Pa", "Pa"},     {"hPa", "hPa"},
-      {"kPa", "kPa"},       {"MPa", "MPa"},       {"kg", "kg"},         {"rpm", "1/min"}, {"1/min", "1/min"},
-      {"U/min", "1/min"},   {"m/min", "m/min"},   {"uV", "uV"},         {"µV", "uV"},     {"kV", "kV"},
-      {"uA", "uA"},         {"µA", "uA"},         {"mA", "mA"},         {"ohm", "ohm"},   {"Ohm", "ohm"},
-      {"kohm", "kohm"},     {"mohm", "mohm"},     {"mT", "mT"},         {"uT", "uT"},     {"µT", "uT"},
-      {"psi", "psi"},       {"g", "g"},           {"mg", "mg"},         {"mN", "mN"},     {"Ncm", "N cm"},
-      {"mrad/s", "mrad/s"}, {"percent", "%"},     {"pct", "%"}};
+      {"um", "um"},         {"µm", "um"},         {"μm", "um"},         {"micron", "um"},     {"nm", "nm"},
+      {"mm", "mm"},         {"m", "m"},           {"km", "km"},         {"inch", "inch"},     {"in", "inch"},
+      {"deg", "deg"},       {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"},     {"urad", "urad"},
+      {"µrad", "urad"},     {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},         {"ms", "ms"},
+      {"min", "min"},       {"h", "h"},           {"K", "K"},           {"degC", "degC"},     {"°C", "degC"},
+      {"C", "degC"},        {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"},     {"um/m", "um/m"},
+      {"%", "%"},           {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},         {"kN", "kN"},
+      {"MN", "MN"},         {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},         {"mV/V", "mV/V"},
+      {"mVV", "mV/V"},      {"bar", "bar"},       {"mbar", "mbar"},     {"Pa", "Pa"},         {"hPa", "hPa"},
+      {"kPa", "kPa"},       {"MPa", "MPa"},       {"kg", "kg"},         {"rpm", "1/min"},     {"1/min", "1/min"},
+      {"U/min", "1/min"},   {"m/min", "m/min"},   {"uV", "uV"},         {"µV", "uV"},         {"kV", "kV"},
+      {"uA", "uA"},         {"µA", "uA"},         {"mA", "mA"},         {"ohm", "ohm"},       {"Ohm", "ohm"},
+      {"kohm", "kohm"},     {"mohm", "mohm"},     {"mT", "mT"},         {"uT", "uT"},         {"µT", "uT"},
+      {"psi", "psi"},       {"g", "g"},           {"mg", "mg"},         {"mN", "mN"},         {"Ncm", "N cm"},
+      {"mrad/s", "mrad/s"}, {"percent", "%"},     {"pct", "%"},         {"cm", "cm"},         {"dm", "dm"},
+      {"ft", "ft"},         {"ns", "ns"},         {"ps", "ps"},         {"us", "us"},         {"µs", "us"},
+      {"degF", "degF"},     {"°F", "degF"},       {"mK", "mK"},         {"inHg", "inHg"},     {"mmHg", "mmHg"},
+      {"torr", "torr"},     {"Torr", "torr"},     {"atm", "atm"},       {"GPa", "GPa"},       {"kHz", "kHz"},
+      {"MHz", "MHz"},       {"GHz", "GHz"},       {"pA", "pA"},         {"nA", "nA"},         {"nV", "nV"},
+      {"Mohm", "Mohm"},     {"MOhm", "Mohm"},     {"ohmcm", "ohm cm"},  {"ohm cm", "ohm cm"}, {"pF", "pF"},
+      {"nF", "nF"},         {"uF", "uF"},         {"µF", "uF"},         {"mH", "mH"},         {"uH", "uH"},
+      {"mW", "mW"},         {"kW", "kW"},         {"kJ", "kJ"},         {"kNm", "kN m"},      {"mL", "mL"},
+      {"ml", "mL"},         {"L/min", "L/min"},   {"l/min", "L/min"},   {"mL/min", "mL/min"}, {"ml/min", "mL/min"},
+      {"mL/h", "mL/h"},     {"ml/h", "mL/h"},     {"m/s", "m/s"},       {"km/h", "km/h"},     {"kg/m3", "kg/m^3"},
+      {"kg/m^3", "kg/m^3"}, {"g/cm3", "g/cm^3"},  {"lx", "lx"},         {"gon", "gon"},       {"kgf", "kgf"},
+      {"lbf", "lbf"},       {"lb", "lb"}};
   return all;
 }
 
@@ -179,7 +190,8 @@ std::string unit_in(const std::string& name, std::string& rest) {
 
 std::string unit_by_name(const std::vector<std::string>& words) {
   static const std::map<std::string, std::string> all{{"seconds", "s"},   {"sekunden", "s"}, {"minutes", "min"},
-                                                      {"minuten", "min"}, {"hours", "h"},    {"stunden", "h"}};
+                                                      {"minuten", "min"}, {"hours", "h"},    {"stunden", "h"},
+                                                      {"days", "d"},      {"tage", "d"}};
   for (const std::string& word : words)
     if (const auto known = all.find(word); known != all.end()) return known->second;
   return words == std::vector<std::string>{"rpm"} ? "1/min" : "";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 
 namespace gumshoe::scenario {
@@ -68,6 +69,19 @@ std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data)
     if (!number.empty() && std::ranges::is_sorted(number)) out.push_back(&c);
   }
   return out;
+}
+
+const RecognisedColumn* sorted_by(const RecognisedData& data) {
+  constexpr std::size_t least = 5; // of fewer levels a stretch holds several
+  const auto is = [](ColumnRole role) { return [role](const RecognisedColumn& c) { return c.role == role; }; };
+  if (std::ranges::any_of(data.columns, is(ColumnRole::time))) return nullptr;
+  for (const RecognisedColumn& c : data.columns) {
+    if ((c.role != ColumnRole::position && c.role != ColumnRole::temperature) || different(data, c) < least) continue;
+    const std::vector<double> number = numbers_of(data, c);
+    if (!number.empty() && (std::ranges::is_sorted(number) || std::ranges::is_sorted(number, std::greater{})))
+      return &c;
+  }
+  return nullptr;
 }
 
 } // namespace gumshoe::scenario

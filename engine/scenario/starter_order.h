@@ -17,4 +17,8 @@ std::vector<const RecognisedColumn*> restarted_by(const RecognisedData& data, co
 /// Columns of blocks with four numbers or more that never fall from one row to the next.
 std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data);
 
+/// The column of a position or a temperature by which the rows are sorted, up or down, where no time tells their order:
+/// a table of a calibration. Null: there is none.
+const RecognisedColumn* sorted_by(const RecognisedData& data);
+
 } // namespace gumshoe::scenario

@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "scenario/starter_order.h"
+#include "scenario/trace_options.h"
 
 namespace gumshoe::scenario {
 
@@ -308,6 +309,12 @@ std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
   if (data.csv.rows.size() < 12)
     return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
            "them\n";
+  if (const RecognisedColumn* c = sorted_by(data))
+    return line("blocks", "{ count = 6, interleaved = true }",
+                fmt::format("guessed: the rows are sorted by {}, of which a stretch would be an end",
+                            toml_string(c->name))) +
+           line("order", toml_string(unknown_order),
+                "guessed: leave it out if they were read in the order of the rows");
   return line("blocks", "{ count = 6 }", "guessed: no column tells four or more cycles apart");
 }
 

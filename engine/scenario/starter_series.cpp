@@ -16,7 +16,8 @@ NamedColumns readings_of(const RecognisedData& data) {
   for (const RecognisedColumn& c : data.columns)
     if (const bool told = c.role == ColumnRole::reading && c.basis == Basis::user;
         c.number && (told || (!counts_rows(c) && !names_parts(c))) &&
-        (c.role == ColumnRole::reading || (c.role == ColumnRole::other && !was_set(data, c) && !is_circumstance(c))))
+        (c.role == ColumnRole::reading ||
+         (c.role == ColumnRole::other && c.basis != Basis::user && !was_set(data, c) && !is_circumstance(c))))
       out.emplace_back("", &c);
   return out;
 }

@@ -16,6 +16,10 @@ std::vector<Key> keys() {
   return {
       {"every", shape::reference("width"), "length of a stretch, counted from the first reading"},
       {"count", shape::whole(2, most_blocks), "number of stretches with equally many rows"},
+      {"interleaved", shape::flag(),
+       "with count: each row belongs to the next block, then again to the first, where rows in order are a sweep "
+       "through "
+       "a condition whose ends a stretch would leave out"},
       {"of", shape::text(), "condition or column by which they go, such as the time; default: the order of [trace]"}};
 }
 
@@ -42,7 +46,7 @@ std::optional<StretchAxis> read_axis(Table& blocks, const Node& trace_node, cons
   return std::nullopt;
 }
 
-/// Equally many rows in each stretch, by the order of the axis or of the rows.
+/// Equally many rows in each stretch, by the order of the axis or of the rows; or, interleaved, every so many.
 std::vector<double> counted(Table& blocks, const std::optional<StretchAxis>& axis, std::size_t n) {
   std::vector<double> out(n);
   const auto count = blocks.integer("count", 2, most_blocks);
@@ -52,8 +56,10 @@ std::vector<double> counted(Table& blocks, const std::optional<StretchAxis>& axi
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (axis) std::ranges::stable_sort(order, {}, [&](std::size_t i) { return axis->values[i]; });
+  const auto blocks_wanted = static_cast<std::size_t>(*count);
+  const bool interleaved = blocks.boolean("interleaved").value_or(false);
   for (std::size_t rank = 0; rank < n; ++rank)
-    out[order[rank]] = static_cast<double>(rank * static_cast<std::size_t>(*count) / n);
+    out[order[rank]] = static_cast<double>(interleaved ? rank % blocks_wanted : rank * blocks_wanted / n);
   return out;
 }
 

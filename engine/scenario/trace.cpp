@@ -163,6 +163,8 @@ private:
   void order() {
     const auto name = table_.text("order");
     if (!name) return;
+    out_.order_known = *name != unknown_order;
+    if (!out_.order_known) return;
     std::vector<std::string> names;
     for (std::size_t c = 0; c < scope_.model.conditions.size(); ++c) {
       names.emplace_back(scope_.model.conditions[c].name);
@@ -241,7 +243,7 @@ Options<TraceOptions> trace_options() {
                     "hold-out blocks; default: the last quarter, at least one"),
       option::by_hand<TraceOptions>("order", shape::text(),
                                     "order of measurement: a condition or a column; default: the order of the "
-                                    "readings"),
+                                    "readings; \"unknown\" where these are sorted by what was set"),
       option::by_hand<TraceOptions>(
           "redone", shape::any_of({shape::text(), shape::list(act)}),
           "labels that identify one redone set-up step, such as a clamping, which may leave scatter behind. Empty: "

@@ -40,12 +40,16 @@ struct StatedEffect {
   bool of_columns = false; ///< a formula reads columns
 };
 
+/// In place of a condition that gives the order of measurement.
+inline constexpr const char* unknown_order = "unknown";
+
 struct TraceOptions {
   bool stated = false;                   ///< the scenario has [trace]
   std::string blocks;                    ///< label whose values are blocks; empty: none
   std::vector<std::string> final_blocks; ///< kept apart until the end; empty: chosen by rule
   std::vector<double> order;             ///< of measurement, by reading; empty: as the readings stand
   std::string order_name;                ///< condition or column that gives it
+  bool order_known = true; ///< else readings stand as they were sorted: nothing is told by what was before
   std::vector<TraceColumn> columns;
   /// Sets of labels that stand for one act done anew: { rod, setup } is a clamping. What it leaves behind may scatter.
   /// Not stated: every set of one or two labels with at least six combinations. Empty: no act was done anew.

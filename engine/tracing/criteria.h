@@ -262,6 +262,7 @@ struct Criteria {
   double reported_correlation = 0.2; ///< serial correlation from which the trace mentions it
   /// Serial correlation from which the first sentence does: most white noise of twenty readings stays below it.
   double strong_correlation = 0.4;
+  double told_scatter = 0.5; ///< share of the noise from which scatter that is no finding is told as well
   /// A split must separate the members by this much (2 ln L: three standard deviations), and by this factor more than
   /// the present data do.
   double split = 9, split_gain = 1.5;

@@ -295,7 +295,7 @@ g = { value = 1, estimated = true }
 [indications.x]
 readings = "r"
 [trace]
-blocks = { count = 2 }
+blocks = { count = 2, interleaved = true }
 ''',
     "machine": '''
 schema = 1

@@ -31,7 +31,7 @@ class Rows(Starter):
         self.assertIn("the row has 5 cells, the header 4", self.told([HEADER] + [row + ",x" for row in rows(count=1)], code=2))
 
     def test_units_of_electricity_mass_and_pressure_are_read_from_names(self):
-        for unit in ("uV", "kV", "uA", "mA", "ohm", "mT", "psi", "g", "mg", "mN"):
+        for unit in ("uV", "kV", "uA", "mA", "ohm", "mT", "psi", "g", "mg", "mN", "cm", "ns", "pA", "mmHg", "inHg", "degF", "kHz", "mL"):
             with self.subTest(unit):
                 self.assertIn(f"signal_{unit}: reading, {unit} (", self.told([f"day,signal_{unit}"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
         self.assertIn("signal_percent: reading, % (", self.told(["day,signal_percent"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))

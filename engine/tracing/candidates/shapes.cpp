@@ -33,7 +33,7 @@ public:
   std::vector<Candidate> all() {
     for (const Covariate& c : o_.covariates) {
       c.angle ? harmonics(c) : polynomials(c);
-      if (c.levels.size() > 2 && !c.course) hysteresis(c);
+      if (c.levels.size() > 2 && !c.course && o_.order_known) hysteresis(c);
     }
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) harmonics(o_.covariates[i], o_.covariates[j]);

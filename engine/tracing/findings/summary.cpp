@@ -103,7 +103,7 @@ std::string bad_readings(const Trace& t) {
   if (count == 0) return "";
   const Outlier& worst = *std::ranges::min_element(t.outliers, {}, &Outlier::weight);
   const std::string off =
-      shown_size(std::fabs(worst.residual), units::error_unit(worst.unit, worst.si_unit), worst.si_unit);
+      shown_size(std::fabs(worst.residual), display_unit(t.rms, worst.unit, worst.si_unit), worst.si_unit);
   return count == 1
              ? fmt::format("One reading is outlying: {}, by {}. Check it.", worst.reading, off)
              : fmt::format("{} readings are outlying; the worst, {}, by {}. Check them.", count, worst.reading, off);
@@ -116,6 +116,16 @@ bool outliers_enlarge(const Trace& t) {
   const auto fitted = static_cast<double>(std::ranges::count(t.rows, false, &Row::held_out));
   const double without = t.rms.before * t.rms.before - squares / std::max(1.0, fitted);
   return !t.outliers.empty() && without <= t.rms.noise_high * t.rms.noise_high;
+}
+
+/// A large part of the noise that the fit takes from group to group, and that may be chance.
+std::string unsure_scatter(const Trace& t) {
+  if (t.noise.scatter.empty() || !(t.noise.scatter_u >= criteria.told_scatter * t.rms.noise)) return "";
+  std::string label = t.noise.scatter;
+  for (std::size_t at = 0; (at = label.find(',', at)) != label.npos;) label.replace(at, 1, " and ");
+  return fmt::format(" This noise holds a scatter of {} from one {} to the next, which may be chance: measure more of "
+                     "them to know.",
+                     shown_rms(t.noise.scatter_u, t.rms), label);
 }
 
 /// Nothing was found: are the residuals as small as noise makes them?
@@ -161,8 +171,8 @@ std::string what_residuals_show(const Trace& t) {
         "large as declared, but noise as declared gives residuals this large in only {:.2g} % of cases: {}",
         shown_rms(r.before, r), t.noise.scale, 100 * t.noise.chi_squared_p, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
-                     "gives ({}).{}",
-                     shown_rms(r.before, r), noise, bad.empty() ? "" : " " + bad);
+                     "gives ({}).{}{}",
+                     shown_rms(r.before, r), noise, unsure_scatter(t), bad.empty() ? "" : " " + bad);
 }
 
 std::string scatter_of_replicates(const Rms& r) {

@@ -28,6 +28,7 @@ bool Fitter::linearise(JointFit& fit) const {
   d.step = o.step;
   d.coarse = coarse_;
   d.covariance_models = covariance_models_;
+  d.order_known = observations_.order_known;
   d.reading.clear();
   d.readouts.clear();
   for (const std::size_t r : o.sequence) {

@@ -16,6 +16,9 @@ bool groups_scatter(const Search& s) {
       s.findings, [](const SearchFinding& f) { return f.finding.kind == Kind::scatter && f.component >= 0; });
 }
 
+/// Whether the noise takes scatter of groups that is no finding: what they are told apart by may be a cause.
+bool noise_holds_scatter(const Search& s) { return s.found.valid && s.found.covariance_model.scatter >= 0; }
+
 /// What the findings that are terms had to exceed, in all.
 double thresholds(const Search& s) {
   double out = 0;
@@ -27,7 +30,7 @@ double thresholds(const Search& s) {
 } // namespace
 
 std::optional<Search> few_causes(const TraceContext& c, const Search& all) {
-  if (!groups_scatter(all)) return std::nullopt;
+  if (!groups_scatter(all) && !noise_holds_scatter(all)) return std::nullopt;
   const Fitter plain = c.fitter.without_scatter();
   const TraceContext without{c.experiment,    c.simulator, c.observations, plain,     c.alpha,
                              c.alpha_further, c.draws,     c.seed,         c.threads, c.progress};

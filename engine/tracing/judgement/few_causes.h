@@ -8,7 +8,7 @@ namespace gumshoe::tracing {
 /// much of it is left. The search is done anew as if no groups could scatter. What it finds is there in place of the
 /// scatter where nothing is left after it, no group scatters, and its likelihood leads by more than all that
 /// its findings had to exceed: scatter of many groups needs many causes.
-/// @param all  a search; none is returned if it found no scatter of groups
+/// @param all  a search; none is returned if it found no scatter of groups, and its noise holds none
 std::optional<Search> few_causes(const TraceContext& context, const Search& all);
 
 } // namespace gumshoe::tracing

@@ -12,7 +12,7 @@ namespace gumshoe::tracing {
 std::vector<CovarianceModel> covariance_models(const Design& d, std::size_t rows) {
   if (!d.covariance_models.empty()) return d.covariance_models;
   std::vector<double> correlations(criteria.correlations.begin(), criteria.correlations.end());
-  if (rows / d.indications < criteria.readings_for_correlation) correlations = {0.0};
+  if (!d.order_known || rows / d.indications < criteria.readings_for_correlation) correlations = {0.0};
   std::vector<CovarianceModel> out;
   for (const double r : correlations) out.push_back({r, -1, 0});
   for (int c = 0; c < static_cast<int>(d.scatter.size()); ++c)

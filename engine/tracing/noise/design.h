@@ -36,6 +36,7 @@ struct Design {
   std::vector<bool> coarse;
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
   std::vector<CovarianceModel> covariance_models; ///< those that are tried; empty: all
+  bool order_known = true;                        ///< of measurement: else no reading resembles the one before
 };
 
 /// Standard uncertainty of the noise of a row, SI.

@@ -307,12 +307,17 @@ Observations observe(const propagation::Experiment& e) {
     c.course = c.name == s.trace.order_name || c.name == "time";
     c.comes_back = c.course && begins_anew(o, c);
   }
+  o.order_known = s.trace.order_known;
+  if (!o.order_known)
+    o.statements.push_back(
+        "the order of measurement is not known: readings are taken to be independent, and nothing is "
+        "sought that changes from one to the next");
   const bool timed = std::ranges::any_of(o.covariates, [](const Covariate& c) { return c.course && !c.comes_back; });
-  if (const Covariate* set = timed ? nullptr : set_in_order(o))
+  if (const Covariate* set = timed || !o.order_known ? nullptr : set_in_order(o))
     o.statements.push_back(fmt::format("{} was set in the order of measurement, each value once; what depends on the "
                                        "order cannot be distinguished from what depends on {}",
                                        set->name, set->name));
-  else if (!timed && o.readings > 2) {
+  else if (!timed && o.order_known && o.readings > 2) {
     std::vector<double> rank(o.readings);
     for (std::size_t i = 0; i < o.readings; ++i) rank[o.sequence[i]] = static_cast<double>(i + 1);
     add_covariate(o, "order", "1", "1", rank);

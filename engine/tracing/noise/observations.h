@@ -46,6 +46,7 @@ struct Observations {
   /// Readings in the order of measurement, the same for shuffled rows where an order is stated.
   std::vector<std::size_t> sequence;
   std::vector<double> order; ///< by reading: as stated, or its number
+  bool order_known = true;   ///< else one reading says nothing of the next
   std::vector<Covariate> covariates;
   std::vector<Grouping> labels; ///< each label with two values or more
   /// Two labels that are crossed and come back together from block to block: what differs by both is a table, and no
