@@ -45,7 +45,8 @@ class RealLogs(InOneFolder):
         start, air, part, rows = datetime.datetime(2026, 3, 2, 6), 20.0, 20.0, []
         for i in range(240):
             before = air
-            air = 20 + 0.95 * (air - 20) + chance.gauss(0, 0.3)
+            if i > 0: # it had been as warm as the air for long
+                air = 20 + 0.95 * (air - 20) + chance.gauss(0, 0.3)
             # The air is linear between readings: tau ds/dt + s = c solved over the step.
             behind = (air - before) * tau / 0.25
             part = air - behind + (part - before + behind) * math.exp(-0.25 / tau) if tau else air

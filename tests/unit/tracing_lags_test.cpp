@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
 #include "tracing/candidates/lags.h"
 #include "unit/tracing_made_design.h"
 
@@ -43,11 +41,6 @@ TEST_CASE("what follows a rise with a lag trails it by slope times time constant
   const Vector follows = of_the_condition(observed(time, load), tau);
   for (std::size_t i = 0; i < time.size(); ++i)
     CHECK(follows[static_cast<Index>(i)] == Approx(3 * (time[i] - tau + tau * std::exp(-time[i] / tau))).margin(1e-12));
-  // Any other s at the first reading decays.
-  const Observations o = observed(time, load);
-  const Candidate one = lag(o, o.covariates[0], o.covariates[1], 0, std::log(tau / 60));
-  for (std::size_t i = 0; i < time.size(); ++i)
-    CHECK(one.columns(static_cast<Index>(i), 1) == Approx(std::exp(-time[i] / tau)));
 }
 
 TEST_CASE("a lag agrees with small steps of its differential equation", "[tracing]") {
@@ -80,8 +73,8 @@ TEST_CASE("the time constant of a lag is found", "[tracing]") {
     const Vector readings = of_the_condition(o, tau), about = readings.array() - readings.mean();
     const auto found = lags(o, [&](const Matrix& columns, Index, double) {
       const Matrix centred = columns.rowwise() - columns.colwise().mean();
-      const Vector fitted = centred * centred.colPivHouseholderQr().solve(about);
-      return Vector(Vector::Constant(1, fitted.squaredNorm()));
+      return Vector((centred.transpose() * about).array().square() /
+                    centred.colwise().squaredNorm().transpose().array());
     });
     REQUIRE(found.size() == 1); // of the load, and none of time
     CHECK(found[0].name == "lag:load");
@@ -93,7 +86,7 @@ TEST_CASE("the time constant of a lag is found", "[tracing]") {
 
 TEST_CASE("places that a slide was sent to act at once", "[tracing]") {
   Observations o = observed({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, {0, 1, 2, 3, 4, 5, 5, 4, 3, 2, 1, 0});
-  const Gain none = [](const Matrix& columns, Index, double) { return Vector(Vector::Zero(columns.cols() / 2)); };
+  const Gain none = [](const Matrix& columns, Index, double) { return Vector(Vector::Zero(columns.cols())); };
   REQUIRE(lags(o, none).size() == 1);
   o.covariates[0].si_unit = "m";
   CHECK(lags(o, none).size() == 1); // recorded alone: the length of a rod that grows

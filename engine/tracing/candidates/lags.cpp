@@ -25,10 +25,9 @@ public:
     }
   }
 
-  /// What follows, and what is left of where it was before the first reading.
   /// @param share  time constant over the duration
-  Matrix columns(double share) const {
-    Matrix out = Matrix::Zero(index(x_.size()) * every_, 2);
+  Matrix column(double share) const {
+    Matrix out = Matrix::Zero(index(x_.size()) * every_, 1);
     double follows = x_[0];
     for (std::size_t i = 0; i < x_.size(); ++i) {
       if (const double steps = i > 0 ? (t_[i] - t_[i - 1]) / share : 0; steps > 0) {
@@ -36,7 +35,6 @@ public:
         follows = x_[i] - behind + (follows - x_[i - 1] + behind) * std::exp(-steps);
       }
       out(index(i) * every_ + indication_, 0) = follows;
-      out(index(i) * every_ + indication_, 1) = std::exp(-(t_[i] - t_[0]) / share);
     }
     return out;
   }
@@ -80,13 +78,12 @@ Candidate lag(const Observations& o, const Covariate& condition, const Covariate
   out.shape =
       fmt::format("time constant {:.2g}{}", units::from_si(constant, time.unit, time.si_unit, units::Kind::difference),
                   units::suffix(time.unit));
-  out.columns = Lags(o, condition, time, indication).columns(std::exp(logarithm));
+  out.columns = Lags(o, condition, time, indication).column(std::exp(logarithm));
   out.form = Form::lag;
   out.parameter = logarithm;
-  Amplitude size;
-  size.quantity = Amplitude::npos;
-  size.name = "size";
-  out.amplitudes.assign(2, size);
+  out.amplitudes.resize(1);
+  out.amplitudes[0].quantity = Amplitude::npos;
+  out.amplitudes[0].name = "size";
   out.depends_on = {condition.name, time.name};
   return out;
 }
@@ -100,7 +97,7 @@ std::vector<Candidate> lags(const Observations& o, const Gain& gain) {
     for (std::size_t i = 0; may_act_late(condition) && i < o.indications; ++i) {
       const Lags columns(o, condition, *time, i);
       const auto loss = [&, share = criteria.absorbed_share](double logarithm) {
-        return -gain(columns.columns(std::exp(logarithm)), 2, share)[0];
+        return -gain(columns.column(std::exp(logarithm)), 1, share)[0];
       };
       constexpr int grid = 12, bits = 12;
       const double step = (high - low) / grid;

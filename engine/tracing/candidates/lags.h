@@ -8,8 +8,8 @@
 namespace gumshoe::tracing {
 
 /// For each indication and each condition or column that was recorded, and no position: that which follows it with a
-/// lag of first order, tau ds/dt + s = c, with the time constant that explains most, and what is left of any s before
-/// the first reading. The condition is taken to be linear between readings. Its p-value counts criteria.lag_forms
+/// lag of first order, tau ds/dt + s = c, with the time constant that explains most. The condition is taken to be
+/// linear between readings, and to have been met for long at the first one. Its p-value counts criteria.lag_forms
 /// times.
 std::vector<Candidate> lags(const Observations& observations, const Gain& gain);
 

@@ -120,8 +120,7 @@ public:
   /// "38 min, u = 4 min" of a drift or a lag; empty of anything else.
   std::string time_constant(const Covariate& time) const {
     const Candidate& a = term_.candidate;
-    const Index sizes = a.form == Form::drift ? 1 : a.form == Form::lag ? 2 : 0;
-    if (term_.size.size() != sizes || !(a.parameter_u > 0)) return "";
+    if (!(a.form == Form::drift || a.form == Form::lag) || term_.size.size() != 1 || !(a.parameter_u > 0)) return "";
     const double constant = std::exp(a.parameter) * (time.levels.back() - time.levels.front());
     return with_u(constant, constant * a.parameter_u, unit_of_duration(time, constant), time.si_unit, counted(time));
   }

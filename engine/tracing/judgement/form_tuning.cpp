@@ -35,7 +35,7 @@ double step_of(const Observations& o, const Candidate& shape, double wanted) {
 }
 
 bool has_parameter(const Term& t) {
-  return t.candidate.form != Form::fixed && t.size.size() == (t.candidate.form == Form::drift ? 1 : 2);
+  return t.candidate.form != Form::fixed && t.size.size() == (t.candidate.form == Form::wave ? 2 : 1);
 }
 
 } // namespace
