@@ -27,7 +27,7 @@ class RealLogs(InOneFolder):
         rows = [f"{p + 1},{who},{t},{parts[p] + by + chance.gauss(0, 0.2):.3f}" for who, by in zip("ABC", bias) for t in (1, 2, 3) for p in range(10)]
         return self.trace("part,operator,trial,reading_mm", rows)
 
-    def test_operators_of_a_gauge_study_are_found_beside_its_parts(self):
+    def test_operators_of_a_gauge_study_are_found_with_its_parts(self):
         """The trials are alike: scatter by operator and trial says the same with less, but not much less, and may be told in one of six."""
         alone = 0
         for seed in range(1, 7):
