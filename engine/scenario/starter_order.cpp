@@ -75,8 +75,9 @@ const RecognisedColumn* sorted_by(const RecognisedData& data) {
   constexpr std::size_t least = 5; // of fewer levels a stretch holds several
   const auto is = [](ColumnRole role) { return [role](const RecognisedColumn& c) { return c.role == role; }; };
   if (std::ranges::any_of(data.columns, is(ColumnRole::time))) return nullptr;
+  const bool placed = std::ranges::any_of(data.columns, is(ColumnRole::position)); // else a temperature was set
   for (const RecognisedColumn& c : data.columns) {
-    if ((c.role != ColumnRole::position && c.role != ColumnRole::temperature) || different(data, c) < least) continue;
+    if (c.role != (placed ? ColumnRole::position : ColumnRole::temperature) || different(data, c) < least) continue;
     const std::vector<double> number = numbers_of(data, c);
     if (!number.empty() && (std::ranges::is_sorted(number) || std::ranges::is_sorted(number, std::greater{})))
       return &c;

@@ -143,6 +143,7 @@ struct Criteria {
   std::size_t most_ends = 30;
   double drift_forms = 4; ///< independent forms of a drift that levels off, between the shortest and the longest
   double lag_forms = 4;   ///< the same of a condition that acts late
+  double recorded_lag = 0.95; ///< correlation with another column from which this says what acts late
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;
   double few_share = 0.75;

@@ -240,8 +240,8 @@ class TraceLog(TracedLog):
         slope, u = re.search(r"tool T3 alone has a straight line against time: (\S+) um/h, u = (\S+) um/h", " ".join(wear["remarks"])).groups()
         self.assertAlmostEqual(float(slope), -6, delta=3.5 * float(u))
         growth = next(f for f in v["findings"] if f["described_by"] == "drift:time")
-        said = re.search(r"time constant (\S+) s, u = (\S+) s; until it levels off it changes by (\S+) um, u = (\S+) um", " ".join(growth["remarks"])).groups()
-        for true, value, u in ((1200, said[0], said[1]), (9, said[2], said[3])):
+        said = re.search(r"time constant (\S+) min, u = (\S+) min; until it levels off it changes by (\S+) um, u = (\S+) um", " ".join(growth["remarks"])).groups()
+        for true, value, u in ((20, said[0], said[1]), (9, said[2], said[3])):
             self.assertAlmostEqual(float(value), true, delta=3.5 * float(u))
         self.assertIn("on tool T3 alone", " ".join(v["plain"]))
 

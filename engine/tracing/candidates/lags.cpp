@@ -58,6 +58,20 @@ bool may_act_late(const Covariate& c) {
   return !c.course && !c.angle && !place && c.levels.size() > 1;
 }
 
+/// Whether another condition or column was recorded that goes along with what follows: the temperature of a column,
+/// which follows that of the spindle, says it better than the latter's lag.
+bool is_recorded(const Observations& o, const Covariate& condition, std::size_t indication, const Candidate& late) {
+  const Vector follows = late.columns(Eigen::seq(index(indication), Eigen::last, index(o.indications)), 0),
+               about = follows.array() - follows.mean();
+  return std::ranges::any_of(o.covariates, [&](const Covariate& other) {
+    if (other.course || other.name == condition.name) return false;
+    Vector x(index(o.readings));
+    for (std::size_t i = 0; i < o.readings; ++i) x[index(i)] = other.value[o.sequence[i]];
+    x.array() -= x.mean();
+    return std::fabs(x.dot(about)) > criteria.recorded_lag * x.norm() * about.norm();
+  });
+}
+
 } // namespace
 
 std::pair<double, double> limits_of_lag(const Covariate& time) {
@@ -106,8 +120,10 @@ std::vector<Candidate> lags(const Observations& o, const Gain& gain) {
         if (const double here = loss(low + step * k); here < least) least = here, best = low + step * k;
       best = boost::math::tools::brent_find_minima(loss, std::max(low, best - step), std::min(high, best + step), bits)
                  .first;
-      out.push_back(lag(o, condition, *time, i, best));
-      out.back().searched = criteria.lag_forms;
+      Candidate one = lag(o, condition, *time, i, best);
+      if (is_recorded(o, condition, i, one)) continue;
+      one.searched = criteria.lag_forms;
+      out.push_back(std::move(one));
     }
   return out;
 }
