@@ -171,7 +171,7 @@ void write_residuals(hid_t file, const scenario::Scenario& s, const ModelCard& c
   }
   const hdf5::Handle group = hdf5::create_group(file, "residuals");
   hdf5::write_attribute(group, "blocks", s.trace.blocks);
-  hdf5::write_attribute(group, "order_name", s.trace.order_name);
+  hdf5::write_attribute(group, "order_name", s.trace.order_known ? s.trace.order_name : scenario::unknown_order);
   Table table(group, "row", rows.size());
   write_fields(table, residual_fields, rows);
   table.numbers("final", column(rows, [](const Row& row) { return static_cast<std::uint8_t>(row.held_out ? 1 : 0); }), "1",

@@ -85,8 +85,8 @@ def and_after(shown):
     return ", before and after" if len(shown) > 1 else ""
 
 
-def in_order(rows, name):
-    """Residuals one after the other, blocks and final blocks marked."""
+def in_order(rows, name, order):
+    """Residuals one after the other, blocks and final blocks marked. `order`: "the order of measurement", or of the rows."""
     rows = sorted(rows, key=lambda r: (r.order, r.reading))
     rows, values = scored(rows)
     unit, factor = scale(rows)
@@ -116,14 +116,14 @@ def in_order(rows, name):
         axes.yaxis.set_major_locator(MaxNLocator(5))
         axes.set_ylabel(axis_label(side if len(shown) > 1 else "residual", unit))
     grid[-1].set_xlim(0.5, len(rows) + 0.5)
-    grid[-1].set_xlabel("reading, in the order of measurement")
+    grid[-1].set_xlabel(f"reading, in {order}")
     blocks = [(first, last) for first, last in zip(edges, edges[1:]) if rows[first].block]
-    if 1 < len(blocks) <= 30:
+    if 1 < len(blocks) <= 30 and len(blocks) == len({rows[first].block for first, _ in blocks}):  # each in one place
         above = grid[0].secondary_xaxis("top")
         above.set_xticks([(first + last + 1) / 2 for first, last in blocks], [rows[first].block for first, _ in blocks])
         above.tick_params(length=0, labelsize=8)
         above.spines["top"].set_visible(False)
-    return svg(figure, name, "Residuals in the order of measurement" + and_after(shown))
+    return svg(figure, name, f"Residuals in {order}" + and_after(shown))
 
 
 def averages(x, y):

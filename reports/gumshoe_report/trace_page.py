@@ -7,6 +7,7 @@ import markupsafe
 from . import figures, trace, trace_axes, trace_figures
 
 DRAWN = 8  # conditions in the figure of residuals
+UNKNOWN_ORDER = "unknown"  # in place of the condition that gives the order of measurement
 OF_RUNS = "the readings are treated as exact"  # a note on runs: tracing takes the noise from the residuals
 
 
@@ -18,11 +19,12 @@ def residual_figures(t, k, indication):
     crosses, triangles = trace_figures.marks(rows)
     varying = trace_axes.columns(t)
     labels = trace_axes.labels(t)
-    drawings = {"order": trace_figures.in_order(rows, f"o{k}"),
+    order = "the order of the rows" if t.order_name == UNKNOWN_ORDER else "the order of measurement"
+    drawings = {"order": trace_figures.in_order(rows, f"o{k}", order),
                 "against": trace_figures.against(rows, varying[:DRAWN], f"a{k}") if varying else "",
                 "labels": trace_figures.by_label(rows, labels, t.blocks, f"l{k}")}
     return types.SimpleNamespace(
-        indication=indication, left_out=[name for name, *_ in varying[DRAWN:]], final=any(r.final for r in rows),
+        indication=indication, in_order=order, left_out=[name for name, *_ in varying[DRAWN:]], final=any(r.final for r in rows),
         unscored=sum(not math.isfinite(r.before) for r in rows), several=len(varying) > 1,
         dependent=any(chosen for *_, chosen in varying), outliers=crosses, beyond=triangles,
         **{name: markupsafe.Markup(drawing) for name, drawing in drawings.items()})

@@ -284,7 +284,7 @@ class Page(Made):
         rows[5].before, rows[9].before, rows[9].weight = 1.0, -1.0, 0.1  # m
         drawn = []
         with unittest.mock.patch.object(trace_figures, "svg", lambda figure, *_: drawn.append(figure) or ""):
-            trace_figures.in_order(rows, "o")
+            trace_figures.in_order(rows, "o", "the order of measurement")
             trace_figures.against(rows, trace_axes.columns(r.trace), "a")
             trace_figures.by_label(rows, trace_axes.labels(r.trace), "setup", "l")
         for figure in drawn[:2]:
