@@ -41,8 +41,9 @@ bool Fit::acts_at(std::size_t unknown, double value) const {
 
 void Fit::begin_elsewhere() {
   if (!defined()) return;
-  const std::size_t rank = p_ - unseen().size();
-  for (const std::size_t j : unseen()) {
+  const std::vector<std::size_t> sought = unseen();
+  std::size_t left = sought.size();
+  for (const std::size_t j : sought) {
     const Unknown& u = unknowns_[j];
     for (const double decade : {1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0, -4.0, 5.0, -5.0, 6.0, -6.0}) {
       const double value = u.start * std::pow(10, decade);
@@ -50,9 +51,10 @@ void Fit::begin_elsewhere() {
       Fit other(*this);
       other.x_[j] = value;
       other.solve_from_start();
-      if (!other.defined() || !other.solution_.report.converged || p_ - other.unseen().size() <= rank ||
+      if (!other.defined() || !other.solution_.report.converged || other.unseen().size() >= left ||
           !(other.solution_.report.cost_after < solution_.report.cost_after))
         continue;
+      left = other.unseen().size();
       x_ = std::move(other.x_);
       solution_ = std::move(other.solution_);
       sigma_ = other.sigma_;

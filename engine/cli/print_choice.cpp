@@ -48,7 +48,7 @@ std::vector<std::pair<std::string, double>> limiting(const Result& r) {
 
 void print_text(const Result& r, const std::string& file) {
   const bool worst = r.asked.worst_case;
-  // Two digits of every U; of a bias the decimals of its own.
+  // Two digits of every U; a bias has the decimals of its U.
   const auto u = [&](double si) { return width(r, si, si); };
   if (!r.title.empty()) std::cout << printable(r.title) << '\n';
   std::cout << r.statement << '\n';

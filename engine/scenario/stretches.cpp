@@ -17,9 +17,7 @@ std::vector<Key> keys() {
       {"every", shape::reference("width"), "length of a stretch, counted from the first reading"},
       {"count", shape::whole(2, most_blocks), "number of stretches with equally many rows"},
       {"interleaved", shape::flag(),
-       "with count: each row belongs to the next block, then again to the first, where rows in order are a sweep "
-       "through "
-       "a condition whose ends a stretch would leave out"},
+       "with count: rows are dealt to the blocks in turn, where a stretch would be an end of what they sweep through"},
       {"of", shape::text(), "condition or column by which they go, such as the time; default: the order of [trace]"}};
 }
 

@@ -165,7 +165,7 @@ private:
     if (!name) return;
     out_.order_known = *name != unknown_order;
     if (!out_.order_known) return;
-    std::vector<std::string> names;
+    std::vector<std::string> names{unknown_order};
     for (std::size_t c = 0; c < scope_.model.conditions.size(); ++c) {
       names.emplace_back(scope_.model.conditions[c].name);
       if (names.back() != *name) continue;

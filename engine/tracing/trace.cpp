@@ -176,9 +176,8 @@ void judge(const TraceContext& c, Search& found, Trace& out) {
   Trace judged = start;
   judge_by_holdout(c, *few, judged);
   // Scatter that is no finding may be chance: there held-out readings need only be predicted better.
-  const bool surely = std::ranges::any_of(
-      found.findings, [](const SearchFinding& f) { return f.finding.kind == Kind::scatter && f.component >= 0; });
-  const double left = judged.rms.holdout_after, most = surely ? out.rms.holdout_noise_low : out.rms.holdout_after;
+  const double left = judged.rms.holdout_after,
+               most = groups_scatter(found) ? out.rms.holdout_noise_low : out.rms.holdout_after;
   if (judged.vetoed || left > judged.rms.holdout_noise_high || left > most) return;
   found = std::move(*few);
   out = std::move(judged);

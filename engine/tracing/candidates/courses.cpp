@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "tracing/candidates/smooth_basis.h"
 #include "tracing/candidates/steps.h"
 #include "tracing/criteria.h"
 
@@ -19,14 +20,6 @@ namespace {
 /// "38 min"
 std::string shown(const Covariate& c, double si) {
   return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), units::suffix(c.unit));
-}
-
-/// Time since the first reading, over the range, in the order of measurement.
-Vector since_the_first(const Observations& o, const Covariate& c) {
-  Vector out(index(o.readings));
-  for (std::size_t i = 0; i < o.readings; ++i)
-    out[index(i)] = (c.value[o.sequence[i]] - c.levels.front()) / (c.levels.back() - c.levels.front());
-  return out;
 }
 
 double bell(double z) { return std::exp(-0.5 * z * z); }
@@ -41,7 +34,7 @@ public:
   };
 
   Placed(const Observations& o, const Covariate& c, std::size_t indication, double (*form)(double))
-      : o_(o), every_(index(o.indications)), indication_(index(indication)), t_(since_the_first(o, c)), form_(form) {}
+      : o_(o), every_(index(o.indications)), indication_(index(indication)), t_(over_the_range(o, c)), form_(form) {}
 
   /// The reading nearest to its middle.
   std::size_t nearest(const Form& form) const {
@@ -107,7 +100,7 @@ class Drifts {
 public:
   Drifts(const Observations& o, const Covariate& c, std::size_t indication)
       : range_(c.levels.back() - c.levels.front()), every_(index(o.indications)), indication_(index(indication)),
-        t_(since_the_first(o, c)) {}
+        t_(over_the_range(o, c)) {}
 
   /// @param shares  time constants over the range
   Matrix columns(const std::vector<double>& shares) const {
@@ -178,7 +171,7 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       out.push_back(drift(o, c, i, std::log(share)));
       out.back().searched = criteria.drift_forms;
       if (c.comes_back) continue; // what happened at one instant, happened once
-      const Steps columns(o, i), bends(o, i, since_the_first(o, c));
+      const Steps columns(o, i), bends(o, i, over_the_range(o, c));
       const auto add = [&](const std::string& name, const Steps& of, const Stretch& at, std::size_t among) {
         out.push_back(shape(o, c, i, name, of.columns({&at, 1})));
         out.back().searched = static_cast<double>(among);

@@ -1,6 +1,7 @@
 #pragma once
 /// Shapes of unknown form: the search of the best one, and the same with another parameter.
 #include <functional>
+#include <utility>
 
 #include "tracing/candidates/candidates.h"
 
@@ -13,5 +14,7 @@ inline constexpr Index at_once = 64; ///< columns of which the gain is sought to
 
 /// The same wave, drift or lag with another parameter. @param shape  not of Form::fixed
 Candidate with_parameter(const Observations& observations, const Candidate& shape, double parameter);
+/// Ends between which its parameter is sought; infinite of a wave.
+std::pair<double, double> parameter_limits(const Observations& observations, const Candidate& shape);
 
 } // namespace gumshoe::tracing

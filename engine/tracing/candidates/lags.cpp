@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "tracing/candidates/smooth_basis.h"
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
@@ -16,32 +17,26 @@ namespace {
 class Lags {
 public:
   Lags(const Observations& o, const Covariate& condition, const Covariate& time, std::size_t indication)
-      : every_(index(o.indications)), indication_(index(indication)) {
-    const double range = condition.levels.back() - condition.levels.front(),
-                 duration = time.levels.back() - time.levels.front();
-    for (const std::size_t reading : o.sequence) {
-      x_.push_back((condition.value[reading] - condition.levels.front()) / range);
-      t_.push_back((time.value[reading] - time.levels.front()) / duration);
-    }
-  }
+      : every_(index(o.indications)), indication_(index(indication)), x_(over_the_range(o, condition)),
+        t_(over_the_range(o, time)) {}
 
   /// @param share  time constant over the duration
   Matrix column(double share) const {
-    Matrix out = Matrix::Zero(index(x_.size()) * every_, 1);
+    Matrix out = Matrix::Zero(x_.size() * every_, 1);
     double follows = x_[0];
-    for (std::size_t i = 0; i < x_.size(); ++i) {
+    for (Index i = 0; i < x_.size(); ++i) {
       if (const double steps = i > 0 ? (t_[i] - t_[i - 1]) / share : 0; steps > 0) {
         const double behind = (x_[i] - x_[i - 1]) / steps; // of a straight rise, once it has settled
         follows = x_[i] - behind + (follows - x_[i - 1] + behind) * std::exp(-steps);
       }
-      out(index(i) * every_ + indication_, 0) = follows;
+      out(i * every_ + indication_, 0) = follows;
     }
     return out;
   }
 
 private:
   Index every_, indication_;
-  std::vector<double> x_, t_; ///< over their ranges
+  Vector x_, t_;
 };
 
 /// Time where it was recorded, else the order of measurement; null: neither.
@@ -65,8 +60,7 @@ bool is_recorded(const Observations& o, const Covariate& condition, std::size_t 
                about = follows.array() - follows.mean();
   return std::ranges::any_of(o.covariates, [&](const Covariate& other) {
     if (other.course || other.name == condition.name) return false;
-    Vector x(index(o.readings));
-    for (std::size_t i = 0; i < o.readings; ++i) x[index(i)] = other.value[o.sequence[i]];
+    Vector x = over_the_range(o, other);
     x.array() -= x.mean();
     return std::fabs(x.dot(about)) > criteria.recorded_lag * x.norm() * about.norm();
   });

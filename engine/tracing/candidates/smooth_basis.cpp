@@ -19,6 +19,12 @@ Covariate within_training(const Observations& o, Covariate c) {
 
 } // namespace
 
+Vector over_the_range(const Observations& o, const Covariate& c) {
+  const double low = c.levels.front(), range = c.levels.back() - low;
+  Vector x(index(o.readings));
+  for (std::size_t i = 0; i < o.readings; ++i) x[index(i)] = (c.value[o.sequence[i]] - low) / range;
+  return x;
+}
 Vector scaled(const Observations& o, const Covariate& c) {
   const double low = c.levels.front(), high = c.levels.back();
   Vector x(index(o.readings));

@@ -278,7 +278,7 @@ public:
 private:
   static constexpr std::size_t none = ~std::size_t{0}; ///< no group
 
-  /// Of a single size, whatever the parameter of its form is.
+  /// u of a single size, which holds whatever the parameter of its form is.
   double size_u() const { return std::max(term_.candidate.size_u, std::sqrt(covariance_(0, 0))); }
 
   /// The mean over the training readings of a group, if there are any.

@@ -92,7 +92,7 @@ std::string aliases(const Covariate& c, double period) {
   const std::vector<double> levels = places(c);
   const double step = even_step(levels, criteria.uneven_step), range = levels.back() - levels.front();
   if (!(step > 0) || 2 * step * static_cast<double>(levels.size()) < range) return ""; // few of its multiples
-  const auto shown = [&](double x) { return shown_size(x, unit_of_duration(c, x), c.si_unit); };
+  const auto shown = [&](double x) { return shown_period(c, x); };
   // At two steps a period, the first is the wave itself.
   const double longer = 1 / (1 / step - 1 / period), shorter = 1 / (1 / step + 1 / period);
   return fmt::format("; read in steps of {}, {} look{} the same", shown(step),

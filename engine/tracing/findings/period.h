@@ -27,7 +27,7 @@ std::vector<double> alike(const Vector& along, const Vector& wave, double period
 /// Unit in which a duration of seconds has two of at least: "h" of 8 h; other units as they are.
 std::string unit_of_duration(const Covariate& covariate, double duration);
 
-/// "8.0 h" of seconds; other units as they are.
+/// "8.02 h" of seconds; other units as they are.
 std::string shown_period(const Covariate& covariate, double period);
 
 } // namespace gumshoe::tracing

@@ -9,12 +9,13 @@
 #include "tracing/judgement/rounds.h"
 
 namespace gumshoe::tracing {
-namespace {
 
 bool groups_scatter(const Search& s) {
   return std::ranges::any_of(
       s.findings, [](const SearchFinding& f) { return f.finding.kind == Kind::scatter && f.component >= 0; });
 }
+
+namespace {
 
 /// Whether the noise takes scatter of groups that is no finding: what they are told apart by may be a cause.
 bool noise_holds_scatter(const Search& s) { return s.found.valid && s.found.covariance_model.scatter >= 0; }

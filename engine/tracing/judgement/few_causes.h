@@ -4,6 +4,9 @@
 
 namespace gumshoe::tracing {
 
+/// Whether a search found scatter of groups.
+bool groups_scatter(const Search& search);
+
 /// Two tools that were hit, one after the other, look like scatter from one day and tool to the next: with either alone
 /// much of it is left. The search is done anew as if no groups could scatter. What it finds is there in place of the
 /// scatter where nothing is left after it, no group scatters, and its likelihood leads by more than all that

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tracing/candidates/forms.h"
-#include "tracing/candidates/lags.h"
 #include "tracing/criteria.h"
 #include "tracing/judgement/apart.h"
 
@@ -26,12 +25,8 @@ Vector derivative(const Observations& o, const Term& term) {
 
 /// The step that is taken where one of `wanted` is best.
 double step_of(const Observations& o, const Candidate& shape, double wanted) {
-  const double by = std::clamp(wanted, -farthest, farthest);
-  if (shape.form == Form::wave) return by;
-  const auto [low, high] = shape.form == Form::lag
-                               ? limits_of_lag(*std::ranges::find(o.covariates, shape.depends_on[1], &Covariate::name))
-                               : std::pair(std::log(criteria.shortest), std::log(criteria.longest));
-  return std::clamp(shape.parameter + by, low, high) - shape.parameter;
+  const auto [low, high] = parameter_limits(o, shape);
+  return std::clamp(shape.parameter + std::clamp(wanted, -farthest, farthest), low, high) - shape.parameter;
 }
 
 bool has_parameter(const Term& t) {
