@@ -3,6 +3,7 @@
 usage: choose_test.py path/to/gumshoe [unittest options]
 """
 import json
+import re
 import unittest
 
 import h5py
@@ -46,6 +47,39 @@ settings = { feed = "30 mm/min", readings = 12 }
 """
 
 
+# Weighing what flows in a time: u = q u(dt) / tau is in proportion to the flow.
+FLOW = """schema = 1
+[model]
+name = "expression"
+method = "virtual_experiment"
+[model.measurands]
+q = { formula = "mass/tau/rho", unit = "L/min" }
+[model.indications]
+mass = "q*rho*(tau + dt)"
+[conditions]
+tau = "20 s"
+[quantities]
+q = "12 L/min"
+rho = "998.2 kg/m^3"
+dt = { value = "0 s", u = "0.03 s" }
+[indications.mass]
+components = [ { u = "1 g", per = "reading" } ]
+[choose]
+measurand = "q"
+target = "0.5 L/min"
+target_of = "worst_case"
+samples = 4000
+variables = { tau = ["20 s", "40 s"] }
+time = { per_reading = "tau" }
+[[choose.cases]]
+name = "slow"
+values = { q = "0.8 L/min" }
+[[choose.cases]]
+name = "fast"
+values = { q = "30 L/min" }
+"""
+
+
 def line_of(text, words):
     return next(i for i, line in enumerate(text.splitlines(), 1) if words in line)
 
@@ -80,6 +114,15 @@ class Choose(InFolder):
     def choose(self, text=TEXT, *more):
         self.file.write_text(text)
         return gumshoe("choose", self.file, "--out", self.out, *more)
+
+    def test_every_expanded_uncertainty_has_two_digits(self):
+        """A fortieth of the flow has a tenth of U or less, which with the decimals of the worst case would have one digit."""
+        run = self.choose(FLOW)
+        cases = json.loads(self.choose(FLOW, "--format", "json", "--force").stdout)["recommended"]["cases"]
+        self.assertGreater(cases["fast"]["U"], 5 * cases["slow"]["U"])
+        for name, case in cases.items():
+            shown = re.search(rf"case {name}: U (\S+) L/min", run.stdout)[1]
+            self.assertEqual(shown, str(float(f"{case['U']:.2g}")))
 
     def test_the_time_is_what_the_card_shows(self):
         card = json.loads(gumshoe("models", "rod_gauging", "--format", "json").stdout)

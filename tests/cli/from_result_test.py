@@ -113,6 +113,11 @@ class FromResult(Lengths):
             self.assertAlmostEqual(np.quantile(new["values"], share), np.quantile(earlier, share), delta=0.003)
         run = gumshoe("check", self.folder / "of_both.toml")
         self.assertIn("drawn together", run.stdout)
+        # Given one of them the other is drawn by its correlation alone, which Shapley effects need, and nothing else does.
+        self.assertNotIn("Gaussian copula", run.stdout)
+        text = (self.folder / "of_both.toml").read_text() + "\n[analysis]\nsensitivity = { shapley = 64 }\n"
+        (self.folder / "shared.toml").write_text(text)
+        self.assertIn("Shapley effects: p, q are drawn given one another as by a Gaussian copula", gumshoe("check", self.folder / "shared.toml").stdout)
 
     def test_two_outputs_of_one_file_keep_their_correlation(self):
         out = self.ran("both", 'y = "s + d"\nz = "s"', 's = { from = "pair.h5:s" }\nd = { from = "pair.h5:d" }')

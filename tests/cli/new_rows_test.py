@@ -36,6 +36,19 @@ class Rows(Starter):
                 self.assertIn(f"signal_{unit}: reading, {unit} (", self.told([f"day,signal_{unit}"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
         self.assertIn("signal_percent: reading, % (", self.told(["day,signal_percent"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
 
+    def test_a_rate_is_no_time(self):
+        said = self.told(["day,rate_ml_h"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)])
+        self.assertIn("rate_ml_h: reading, mL/h (", said)
+
+    def test_a_column_that_is_told_to_be_another_is_recorded_and_no_reading(self):
+        lines = ["day,flow_percent,size_mm"] + [f"{i // 5},{40 + i * 7919 % 1009 / 100},{i * 5 % 13 / 10}" for i in range(30)]
+        self.told(lines)
+        self.assertIn("[indications.flow_percent]", (self.folder / "log.toml").read_text())
+        self.new("--from", "log.csv", "--force", "--role", "flow_percent=other")
+        text = (self.folder / "log.toml").read_text()
+        self.assertNotIn("[indications.flow_percent]", text)
+        self.assertRegex(text, r'\[trace.columns\]\n(.*\n)*flow_percent = "flow_percent"')
+
     def test_units_in_cells_are_said(self):
         said = self.told([HEADER] + [row + " mm" for row in rows()], code=2)
         self.assertIn("log.csv:2:10: error: the cells of the column 'size_mm' are no numbers: '25.", said)

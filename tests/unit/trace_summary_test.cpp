@@ -44,6 +44,19 @@ TEST_CASE("readings that scatter more than declared do not agree", "[tracing][ve
   }
 }
 
+TEST_CASE("scatter that the noise holds is told where nothing is found", "[tracing][verdict]") {
+  Trace t = made::trace("nothing_found").trace;
+  const double noise = t.rms.noise;
+  for (const double share : {0.0, 0.4, 0.6}) {
+    t.noise.scatter = share > 0 ? "day,operator" : "";
+    t.noise.scatter_u = share * noise;
+    summarise(t);
+    CAPTURE(share, t.plain[0]);
+    CHECK((t.plain[0].find("from one day and operator to the next, which may be chance") != std::string::npos) ==
+          (share > 0.5));
+  }
+}
+
 TEST_CASE("what the held-out readings do not confirm is nothing to correct for yet", "[tracing][verdict]") {
   for (const char* name : {"named", "two_findings"}) {
     Trace t = made::trace(name).trace;
