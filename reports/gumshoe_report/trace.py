@@ -69,7 +69,7 @@ class Trace:
         # A name may hold spaces and brackets: those of what was tried are known.
         tried = {c.name for c in t.candidates} | {m for f in t.findings for m in f.members}
         known = [re.escape(name) for name in sorted(tried, key=len, reverse=True) if ":" in name]
-        self.names = re.compile("|".join([*known, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave):[\w*^/]+"]))
+        self.names = re.compile("|".join([*known, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|lag|wave):[\w*^/]+"]))
         # A shape that the hold-out blocks rejected is reported and not added; scatter outlives their veto.
         self.rejected = [f for f in t.findings if self.is_rejected(f)]
         self.standing = [f for f in t.findings if not self.is_rejected(f)]

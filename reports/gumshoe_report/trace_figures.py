@@ -17,6 +17,7 @@ SIDES = (("before", ORANGE), ("after", BLUE))
 WIDE = 9.2  # inches, of the figures with many points
 LEVELS = 60  # of a label, beyond them it is not drawn
 DISTINCT = 12  # values of a condition that are averaged one by one; beyond them in bins
+LEAST = 3  # readings of an average
 MANY = 400  # residuals; beyond them the points are an image in the figure, or the page were megabytes
 DOTS = 200  # per inch, of such an image
 LINES = 4  # in the figure of a table; beyond them the table says it better
@@ -134,10 +135,10 @@ def averages(x, y):
     if len(values) <= DISTINCT:
         groups = [x == v for v in values]
     else:
-        bins = max(DISTINCT, min(30, len(x) // 8))
+        bins = min(max(DISTINCT, min(30, len(x) // 8)), len(x) // LEAST)
         edges = np.unique(np.quantile(x, np.linspace(0, 1, bins + 1)))
         groups = [(x >= a) & ((x < b) | ((x <= b) & (b == edges[-1]))) for a, b in zip(edges, edges[1:])]
-    groups = [g for g in groups if g.sum() >= 3]
+    groups = [g for g in groups if g.sum() >= LEAST]
     spread = [2 * y[g].std(ddof=1) / math.sqrt(g.sum()) for g in groups]
     return np.array([x[g].mean() for g in groups]), np.array([y[g].mean() for g in groups]), np.array(spread)
 

@@ -1,9 +1,7 @@
-"""Files and report of a trace, from made-up outcomes of every kind: what is stored, and that the page says it.
+"""Report of a trace, from made-up outcomes of every kind: that the page says what is stored.
 
 usage: trace_report_test.py path/to/gumshoe [unittest options]
 """
-import csv
-import json
 import math
 import re
 import subprocess
@@ -15,53 +13,14 @@ import unittest.mock
 import h5py
 import numpy as np
 
-from program import MADE, ROOT, InOneFolder, complaint, gumshoe
+from made_traces import KINDS, Made, root_mean_square
+from program import ROOT, InOneFolder, gumshoe
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
 from gumshoe_report import csv_tables, page, read, trace, trace_axes, trace_figures
-
-KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "lack_of_fit",
-         "insufficient_data")
-
-
-def made(*words):
-    run = subprocess.run([MADE, "--trace", *words], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
-    return run.stdout
-
-
-def root_mean_square(x):
-    return math.sqrt(np.mean(np.square(x)))
-
-
-class Made(InOneFolder):
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.said, cls.pages = {}, {}
-        for kind in KINDS:
-            made(kind, str(cls.file(kind)))
-            cls.said[kind] = json.loads(made(kind, "--json"))
-            report = gumshoe("report", cls.file(kind))
-            assert (report.returncode, report.stderr) == (0, ""), report.stderr
-            cls.pages[kind] = cls.file(kind).with_suffix(".html").read_text(encoding="utf-8")
-
-    @classmethod
-    def file(cls, kind):
-        return cls.folder / f"{kind}.h5"
-
-    def test_candidates_have_readable_names(self):
-        self.assertEqual(trace.in_words("scatter:cycle | omnibus:time"), "scatter by cycle or any smooth dependence on time")
-        for kind in KINDS:
-            prose = re.sub(r"(?s)<(code|pre|script|style)\b.*?</\1>|<[^>]*>", " ", self.pages[kind])
-            self.assertNotRegex(prose, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave|step|scatter|declared):\w")
-
-    def table(self, kind, name):
-        with open(self.folder / f"{kind}_{name}.csv", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
 
 
 class Written(InOneFolder):
@@ -90,79 +49,13 @@ u = "0.1 um"
         self.assertIn("0.01", page.read_text(encoding="utf-8"))
 
 
-class File(Made):
-    def test_every_dataset_says_what_it_is(self):
-        def check(name, item):
-            if isinstance(item, h5py.Dataset):
-                self.assertTrue((item.attrs.get("units") or item.attrs["units_note"]) and item.attrs["long_name"], name)
-                if item.attrs.get("CLASS") != b"DIMENSION_SCALE":
-                    for dimension in item.dims:
-                        self.assertEqual(len(dimension), 1, name)
-                        self.assertTrue(dimension[0].name.endswith("/" + dimension.label), name)
-        for kind in KINDS:
-            with self.subTest(kind), h5py.File(self.file(kind)) as file:
-                file.visititems(check)
-                self.assertEqual((file.attrs["program"], file.attrs["complete"]), ("gumshoe", 1))
-                self.assertTrue(file.attrs["scenario_text"] and file.attrs["scenario_hash"])
-                self.assertEqual(file["trace"].attrs["verdict"], self.said[kind]["verdict"])
-
-    def test_residuals_stand_beside_what_they_may_depend_on(self):
-        with h5py.File(self.file("named")) as file:
-            r, data = file["residuals"], file["data"]
-            self.assertEqual(r["final"].attrs["flag_meanings"].split(), ["training", "final"])
-            self.assertEqual(list(r["final"].attrs["flag_values"]), [0, 1])
-            final = r["final"][()] == 1
-            self.assertEqual({b.decode() for b in r["block"][()][final]}, {"7", "8"})
-            self.assertEqual(r.attrs["blocks"], "setup")
-            # The sizes that are told come from these rows.
-            told = self.said["named"]["rms"]
-            for side in ("before", "after"):
-                self.assertAlmostEqual(root_mean_square(r[side][()][~final]) / told[side], 1, places=12)
-                self.assertAlmostEqual(root_mean_square(r[side][()][final]) / told[f"holdout_{side}"], 1, places=12)
-            # Slope against feed: the latency of 1.5 ms, on readings that go downwards, and nothing of it after.
-            feed = data["conditions/feed"][()][r["reading"][()]]
-            noise = r["noise_u"][0] / math.sqrt(np.sum((feed - feed.mean()) ** 2))
-            slope = lambda side: np.polyfit(feed, r[side][()], 1)[0]
-            self.assertAlmostEqual(slope("before"), -1.5e-3, delta=4 * noise)
-            self.assertAlmostEqual(slope("after"), 0, delta=4 * noise)
-            self.assertAlmostEqual(data["conditions/feed"].attrs["display_factor"], 60000)
-            temperature = data["columns/temperature"]
-            self.assertEqual((temperature.attrs["units"], temperature.attrs["display_units"]), ("K", "degC"))
-            self.assertAlmostEqual(temperature[0] + temperature.attrs["display_offset"], 20)
-            self.assertEqual([v.decode() for v in data["labels/rod"][()][[0, -1]]], ["rod 1", "rod 2"])
-
-    def test_findings_with_all_their_sizes(self):
-        with h5py.File(self.file("class")) as file:
-            f = file["trace/findings/000"]
-            self.assertEqual((f.attrs["kind"], len(f["members"])), ("class", 2))
-            q = f["quantities"]
-            self.assertEqual([m.decode() for m in q["member"]], ["thermal_growth", "rod_expansion"])
-            self.assertEqual([m.decode() for m in q["units"]], ["m", "K-1"])
-            shown = q["value"][()] * q["display_factor"][()]
-            np.testing.assert_allclose(shown, [3.1, 11.2])
-        with h5py.File(self.file("two_findings")) as file:
-            curves = file["trace/findings/001/curves"]
-            self.assertEqual([curves[k].attrs["against"] for k in curves], ["time", "setup"])
-            self.assertEqual(len(curves["000/x"]), len(curves["000/y"]))
-            self.assertEqual([v.decode() for v in curves["001/level"]], list("12345678"))
-            self.assertEqual(curves["000"].attrs["size_display_units"], "um")
-        with h5py.File(self.file("named")) as file:
-            limits = file["trace/detection_limits/value"][()]
-            self.assertTrue(np.isinf(limits[2]) and np.isfinite(limits[[0, 1, 3]]).all())
-            self.assertEqual(file["budget_after/000"].attrs["units"], "m")
-            self.assertNotIn("trigger_latency.delay", [n.decode() for n in file["budget_before/000/name"]])
-        with h5py.File(self.file("insufficient_data")) as file:
-            self.assertNotIn("candidates", file["trace"])
-            self.assertTrue(math.isnan(file["trace/rms"].attrs["before"]))
-
-    def test_no_samples_are_promised(self):
-        for command in (("replay", self.file("named"), "--sample", 0), ("analyse", self.file("named"))):
-            run = gumshoe(*command)
-            self.assertIsNone(complaint(run), run.stderr)
-            self.assertIn("gumshoe trace made it", run.stderr)
-
-
 class Page(Made):
+    def test_candidates_have_readable_names(self):
+        self.assertEqual(trace.in_words("scatter:cycle | omnibus:time"), "scatter by cycle or any smooth dependence on time")
+        for kind in KINDS:
+            prose = re.sub(r"(?s)<(code|pre|script|style)\b.*?</\1>|<[^>]*>", " ", self.pages[kind])
+            self.assertNotRegex(prose, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|lag|wave|step|scatter|declared):\w")
+
     def test_pages_are_sound(self):
         for kind, page in self.pages.items():
             with self.subTest(kind):
@@ -296,6 +189,14 @@ class Page(Made):
             self.assertTrue(all(low <= y <= high for line in axes.lines for y in line.get_ydata()))
         self.assertEqual(words_of(page.render(r)).count("Triangles: "), 2)
 
+    def test_a_hump_of_few_readings_shows_in_their_averages(self):
+        """Of 26 readings at as many places: bins of three, and not two bins that happen to hold so many."""
+        x = np.arange(26.0)
+        centre, mean, half = trace_figures.averages(x, np.exp(-((x - 15) / 4) ** 2))
+        self.assertEqual(len(centre), 8)
+        self.assertLess(abs(centre[mean.argmax()] - 15), 2)
+        self.assertGreater(mean.max(), 0.8)
+
     def test_sizes_are_rounded_by_their_uncertainty(self):
         self.assertRegex(words_of(self.pages["named"]), r"delay ?trigger_latency\.delay ?1\.520 ?0\.041 ?\[1\.430, 1\.610\] ?ms")
         self.assertRegex(words_of(self.pages["class"]), r"expansion ?rod_expansion\.expansion ?11\.2 ?1\.1 ?\[8\.9, 13\.5\] ?µm/m/K")
@@ -385,23 +286,6 @@ class Page(Made):
                                  capture_output=True, text=True, timeout=180)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertNotIn("CONSOLE", run.stderr)
-
-
-class Text(unittest.TestCase):
-    def test_for_a_terminal(self):
-        text = made("named", "--text")
-        self.assertIn("found: trigger_latency, p = 0.001\n", text)
-        self.assertIn("delay = 1.520 ms, u = 0.041 ms, 95 % [1.430, 1.610]", text)
-        self.assertRegex(text, r"in sample \(training data\) +1\.2 +0\.40 +0\.39 \(95 %: 0\.34 to 0\.44\)")
-        self.assertIn("refused: within its uncertainty", text)
-        text = made("class", "--text")
-        self.assertRegex(text, r"either thermal_growth\n    growth = 3\.10 um.*\n  or rod_expansion\n    expansion = 11\.2 um/m/K")
-        self.assertIn("to split them: let the spindle rest", text)
-        self.assertIn("z_scale, scale: undetectable in these data", made("nothing_found", "--text"))
-        text = made("insufficient_data", "--text")
-        self.assertIn("these data cannot decide", text)
-        for kind in KINDS:
-            self.assertFalse({"nan", "inf"} & set(re.split(r"\W+", made(kind, "--text"))), kind)
 
 
 if __name__ == "__main__":
