@@ -39,10 +39,11 @@ inline Column held(const Column& column, Room& room, std::size_t columns = 1) {
 }
 
 /// Calls body(i) for i in [0, n), which passes over so many values: as many at the same time as is held in bounded
-/// memory, because passes over many values are long enough to take all threads one after the other. 0 threads: all
-/// processors.
+/// memory, and two of however many values, so that the passes of one fill the pauses between those of the other. 0
+/// threads: all processors.
 inline void side_by_side(std::size_t n, std::size_t values, int threads, const std::function<void(std::size_t)>& body) {
-  const std::size_t most = std::max<std::size_t>(1, held_values / std::max<std::size_t>(1, values));
+  constexpr std::size_t least = 2;
+  const std::size_t most = std::max(least, held_values / std::max<std::size_t>(1, values));
   progress::Loop loop(n);
   for (std::size_t first = 0; first < n; first += most)
     propagation::parallel_for(std::min(most, n - first), threads, [&](std::size_t i) {

@@ -91,7 +91,7 @@ ExitCode analyse(const AnalyseOptions& o) {
   analysis::Results results = analysis::analyse(experiment, file.view(), o.threads);
   results.stopping = source.read_stopping();
   analysis::keep_measurands(results, s.analysis.measurands);
-  file.finish(results);
+  file.finish(results, o.threads);
   line.clear();
   PrintOptions print = o.print;
   print.max_failed_share = s.run.max_failed_share;

@@ -106,7 +106,7 @@ ExitCode complete_run(const propagation::Experiment& experiment, store::ResultFi
   results.stopping = stopping;
   stamp(results, begun);
   analysis::keep_measurands(results, experiment.scenario().analysis.measurands);
-  file.finish(results);
+  file.finish(results, workers.threads);
   line.clear();
   print.max_failed_share = experiment.scenario().run.max_failed_share;
   return print_results(results, out, print);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "propagation/memory_store.h"
 #include "store/identity.h"
 #include "store/origin.h"
@@ -73,9 +74,9 @@ struct ResultFile::Impl {
   /// A new file; `before`: the samples so far, which it takes over; `results`: complete with these. HDF5 changes a file
   /// in many writes, between which it is no file to read: so none that stands at the path is changed but in its
   /// samples, their digests and its marker, which have their place from the start.
-  void create(Impl* before = nullptr, const analysis::Results* results = nullptr);
+  void create(Impl* before = nullptr, const analysis::Results* results = nullptr, int threads = 1);
   Record build(const std::string& name, const analysis::Results* results) const;
-  void copy_to(SampleFile& other, std::uint64_t count);
+  void copy_to(SampleFile& other, std::uint64_t count, int threads);
   void require_room(bool before, bool keeps) const;
   /// Whether the file at the path is an unfinished one of the same run, which then goes on.
   bool resume();
@@ -113,8 +114,8 @@ void ResultFile::Impl::spill() {
   marked_at = Clock::now();
 }
 
-void ResultFile::Impl::copy_to(SampleFile& other, std::uint64_t count) {
-  if (!early) return whole().copy_to(other, count);
+void ResultFile::Impl::copy_to(SampleFile& other, std::uint64_t count, int threads) {
+  if (!early) return whole().copy_to(other, count, threads);
   std::vector<const double*> rows;
   for (std::size_t row = 0; row < outputs.size(); ++row) rows.push_back(early->values(row).data());
   other.write(0, rows, early->status().first(count));
@@ -127,7 +128,7 @@ void ResultFile::Impl::require_room(bool before, bool keeps) const {
                 copies * static_cast<double>(bytes_of(identity.samples)) + static_cast<double>(reserve()));
 }
 
-void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
+void ResultFile::Impl::create(Impl* before, const analysis::Results* results, int threads) {
   const bool keeps = !results || identity.store_samples;
   require_room(before, keeps);
   Draft draft;
@@ -138,7 +139,7 @@ void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
   if (before) done = std::min(before->done, identity.samples);
   if (keeps) {
     samples = SampleFile(std::move(file), record);
-    if (before) before->copy_to(samples, done);
+    if (before) before->copy_to(samples, done, threads);
     samples.mark(done, false);
     if (identity.study_values > 0) studies = SampleFile::of_studies(RawFile(name, O_RDWR), record);
   } else {
@@ -336,14 +337,15 @@ void ResultFile::settle() {
   });
 }
 
-void ResultFile::finish(const analysis::Results& results) {
+void ResultFile::finish(const analysis::Results& results, int threads) {
   Impl& f = *impl_;
   if (f.done != f.identity.samples) throw std::logic_error("finished before the last sample");
+  progress::stage("result file");
   const Lock lock(hdf5::library());
   naming(f.claim.path(), [&] {
     if (!f.early) f.mark();
     auto next = f.successor(f.done);
-    next->create(&f, &results);
+    next->create(&f, &results, threads);
     std::swap(impl_, next);
   });
 }

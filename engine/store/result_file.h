@@ -65,7 +65,8 @@ public:
   /// Returns once the samples and values so far are on the disk and counted. A shard ends so.
   void settle();
   /// A new file with the samples and everything else, complete, takes the place of the old one.
-  void finish(const analysis::Results& results);
+  /// @param threads that copy the samples; 0: one per processor
+  void finish(const analysis::Results& results, int threads = 1);
 
 private:
   bool resumed();

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "propagation/parallel.h"
 
 namespace gumshoe::store {
 
@@ -182,14 +183,15 @@ std::uint64_t SampleFile::sound() {
   return sound;
 }
 
-void SampleFile::copy_to(SampleFile& other, std::uint64_t count) const {
-  std::vector<char> bytes(std::size_t{1} << 20);
+void SampleFile::copy_to(SampleFile& other, std::uint64_t count, int threads) const {
+  constexpr std::uint64_t part = std::uint64_t{1} << 20;
   const auto copy = [&](std::uint64_t from, std::uint64_t to, std::uint64_t length) {
-    for (std::uint64_t at = 0; at < length; at += bytes.size()) {
-      const std::uint64_t n = std::min<std::uint64_t>(bytes.size(), length - at);
+    propagation::parallel_for((length + part - 1) / part, threads, [&](std::size_t i) {
+      thread_local std::vector<char> bytes(part);
+      const std::uint64_t at = i * part, n = std::min(part, length - at);
       file_.read(bytes.data(), n, from + at);
       other.file_.write(bytes.data(), n, to + at);
-    }
+    });
   };
   for (std::size_t row = 0; row < rows_.size(); ++row) copy(place(row, 0), other.place(row, 0), 8 * count);
   copy(status_, other.status_, count);

@@ -51,8 +51,8 @@ public:
   /// there on may be written again.
   std::uint64_t sound();
   /// Copies samples [0, count), all in the file, with their digests into a new one, which may have room for fewer or
-  /// more.
-  void copy_to(SampleFile& other, std::uint64_t count) const;
+  /// more, on `threads` threads.
+  void copy_to(SampleFile& other, std::uint64_t count, int threads) const;
 
 private:
   /// Samples of consecutive blocks, [row * most + i].
