@@ -219,20 +219,29 @@ bool uses(const std::string& text, const std::string& quoted) {
   return false;
 }
 
+/// Whether the scenario tells readings apart by a column.
+bool is_label(const std::string& text, const std::string& quoted) {
+  const std::size_t at = text.find("\nlabels = {");
+  return at != std::string::npos &&
+         text.substr(at, text.find('\n', at + 1) - at).find("= " + quoted) != std::string::npos;
+}
+
 /// What the scenario does with each column.
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
     const std::string quoted = scenario::toml_string(c.name);
     const bool used = uses(text, quoted);
+    const bool label = used && c.role == ColumnRole::other && is_label(text, quoted);
     const char* use = !used                                                    ? "not used"
                       : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
+                      : label                                                  ? "label, which tells readings apart"
                       : c.role == ColumnRole::other                            ? "used by its name"
                                                                                : name(c.role);
     const std::string why = used ? c.why : scenario::why_not_used(found, c);
     std::cout << fmt::format("  {}: {}{}{}{}\n", c.name, use,
-                             c.unit == "1"   ? ""
-                             : c.unit == "?" ? ", unit unknown"
-                                             : ", " + c.unit,
+                             label || c.unit == "1" ? ""
+                             : c.unit == "?"        ? ", unit unknown"
+                                                    : ", " + c.unit,
                              why.empty() ? "" : fmt::format(" ({})", why), other_name(c, text));
     if (another_reading(found, c, text))
       std::cout << fmt::format("    if this is what was read: --role {}\n", shell_word(c.name + "=reading"));

@@ -127,7 +127,8 @@ void guess_roles(RecognisedData& data) {
   const auto take = [&](auto first, auto end, ColumnRole role, const char* why) {
     const auto fitting = [&](const RecognisedColumn& c) {
       return c.number && c.role == ColumnRole::other && c.basis != Basis::user && !counts_rows(c) && !names_parts(c) &&
-             (role != ColumnRole::position || (is_place(c) && different(data, c) > 1 && was_set(data, c)));
+             (role != ColumnRole::position ||
+              (is_place(c) && different(data, c) > (c.unit == "?" ? 2u : 1u) && was_set(data, c))); // two are a setting
     };
     // Numbers that recur and have no unit are names, such as those of inserts.
     const auto likely = [&](const RecognisedColumn& c) {
@@ -203,12 +204,13 @@ bool counts_rows(const RecognisedColumn& c) {
 
 bool names_parts(const RecognisedColumn& c) {
   static const std::set<std::string> names{
-      "operator",  "bediener",   "observer", "lab",     "laboratory", "batch",    "lot",       "machine", "maschine",
-      "sample",    "part",       "specimen", "tool",    "artefact",   "probe",    "sensor",    "day",     "tag",
-      "shift",     "wafer",      "rod",      "touch",   "hit",        "shot",     "antastung", "insert",  "cavity",
-      "nest",      "pose",       "werkzeug", "teil",    "platte",     "schneide", "worker",    "person",  "appraiser",
-      "inspector", "technician", "analyst",  "pruefer", "prüfer",     "subject",  "patient",   "site",    "source",
-      "rail",      "plate",      "station",  "fixture", "supplier",   "furnace"};
+      "operator",  "bediener", "observer", "lab",       "laboratory", "batch",      "lot",     "machine",
+      "maschine",  "sample",   "part",     "specimen",  "tool",       "artefact",   "probe",   "sensor",
+      "day",       "tag",      "shift",    "wafer",     "rod",        "touch",      "hit",     "shot",
+      "antastung", "insert",   "cavity",   "nest",      "pose",       "werkzeug",   "teil",    "platte",
+      "schneide",  "worker",   "person",   "appraiser", "inspector",  "technician", "analyst", "pruefer",
+      "prüfer",    "subject",  "patient",  "site",      "source",     "rail",       "plate",   "station",
+      "fixture",   "supplier", "furnace",  "week",      "month",      "woche",      "monat"};
   const auto words = words_of(c.name);
   return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
 }

@@ -152,7 +152,8 @@ bool unknown_unit(const Node& node, const std::string& path, const std::string& 
                   Problems& problems) {
   if (!is_unknown_unit(unit)) return false;
   problems.add(node, fmt::format("{}: the unit of the column '{}' is still to be told", path, column),
-               "the file does not say it", "write it instead of the question mark, such as \"mm\"");
+               "the file does not say it",
+               "write it instead of the question mark, such as \"mm\", or \"1\" for numbers without one");
   return true;
 }
 

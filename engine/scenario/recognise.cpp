@@ -105,6 +105,9 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
   const auto words = words_of(rest);
   if (!below.empty()) unit = below;
   if (unit.empty()) unit = unit_by_name(words);
+  // F is the farad, but not of a temperature.
+  const bool letter = unit == "F" || (unit.empty() && !words.empty() && words.back() == "f");
+  if (letter && (role_by_name(words, "") == ColumnRole::temperature || is_temperature_symbol(rest, ""))) unit = "degF";
   const bool symbol = out.number && is_temperature_symbol(rest, unit) && (!unit.empty() || !rises(data, c));
   if (const ColumnRole role = symbol ? ColumnRole::temperature : role_by_name(words, unit); role != ColumnRole::other)
     out.take(role, Basis::name, "by its name");

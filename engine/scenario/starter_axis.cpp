@@ -90,13 +90,6 @@ std::optional<RecognisedColumn> both_ways(const RecognisedData& data, const Reco
   return out;
 }
 
-/// Whether a column is the place of the readings along a second axis: "Y", next to a position "X".
-bool is_coordinate(const RecognisedColumn& c) {
-  const auto words = words_of(c.name);
-  return words.size() == 1 && words[0].size() == 1 &&
-         std::string_view("xyzabcuvw").find(words[0]) != std::string_view::npos;
-}
-
 /// Circumstances with a known unit, which vary: a feed, a humidity, and what else was set to a few values, as a radius;
 /// and coordinates, whose unit the user knows.
 NamedColumns circumstances(const RecognisedData& data, Names& names, const std::set<std::string>& used) {

@@ -179,7 +179,7 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
   for (const auto& [name, c] : model.conditions())
     if (c->role == ColumnRole::time) order = name;
   const std::string recorded = columns_of(found, model.names(), used, order);
-  const NamedColumns labels = labels_of(found);
+  const NamedColumns labels = labels_of(found, used);
   const std::string& name = model.reading_name();
   std::string out =
       fmt::format("# Question: how do the readings in {} depend on {}, and what does a linear model not explain?\n"

@@ -99,7 +99,7 @@ private:
   }
 
   std::string data_text() const {
-    std::string out = data_section(*data_, labels_of(data_->found), conditions_, used_) + '\n';
+    std::string out = data_section(*data_, labels_of(data_->found, used_), conditions_, used_) + '\n';
     for (std::size_t i = 0; i < readings_.size(); ++i) {
       const VariableCard& card = card_.indications[i];
       const RecognisedColumn* c = readings_[i].second;
@@ -125,7 +125,7 @@ private:
     for (const auto* variables : {&card_.conditions, &card_.indications, &card_.measurands})
       for (const VariableCard& v : *variables) names.reserve(v.name);
     for (const QuantityCard& q : card_.quantities) names.reserve(q.name);
-    return "\n[trace]\n" + blocks_of(data_->found, labels_of(data_->found)) +
+    return "\n[trace]\n" + blocks_of(data_->found, labels_of(data_->found, used_)) +
            columns_of(data_->found, names, used_, timed ? "time" : "");
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <set>
 #include <string_view>
 
 namespace gumshoe::scenario {
@@ -23,7 +24,7 @@ std::vector<double> numbers_of(const RecognisedData& data, const RecognisedColum
 } // namespace
 
 bool counts_blocks(const RecognisedColumn& c) {
-  constexpr std::array<std::string_view, 4> days{"day", "tag", "shift", "schicht"};
+  constexpr std::array<std::string_view, 8> days{"day", "tag", "shift", "schicht", "week", "woche", "month", "monat"};
   if (c.role == ColumnRole::cycle) return true;
   if (!names_parts(c)) return false;
   const auto words = words_of(c.name);
@@ -71,10 +72,12 @@ std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data)
   return out;
 }
 
-const RecognisedColumn* sorted_by(const RecognisedData& data) {
+namespace {
+
+/// The column of a position, or where there is none of a temperature, whose numbers only rise or only fall; null: none.
+const RecognisedColumn* sweep(const RecognisedData& data) {
   constexpr std::size_t least = 5; // of fewer levels a stretch holds several
   const auto is = [](ColumnRole role) { return [role](const RecognisedColumn& c) { return c.role == role; }; };
-  if (std::ranges::any_of(data.columns, is(ColumnRole::time))) return nullptr;
   const bool placed = std::ranges::any_of(data.columns, is(ColumnRole::position)); // else a temperature was set
   for (const RecognisedColumn& c : data.columns) {
     if (c.role != (placed ? ColumnRole::position : ColumnRole::temperature) || different(data, c) < least) continue;
@@ -83,6 +86,59 @@ const RecognisedColumn* sorted_by(const RecognisedData& data) {
       return &c;
   }
   return nullptr;
+}
+
+/// Number of stretches of rows that agree in some columns; 0 if such rows come back after others.
+std::size_t stretches(const RecognisedData& data, const std::vector<const RecognisedColumn*>& columns) {
+  std::set<std::vector<std::string_view>> met;
+  std::vector<std::string_view> here;
+  for (const auto& row : data.csv.rows) {
+    std::vector<std::string_view> key;
+    for (const RecognisedColumn* c : columns) key.push_back(row[place(data, *c)].text);
+    if (!met.empty() && key == here) continue;
+    if (!met.insert(key).second) return 0;
+    here = std::move(key);
+  }
+  return met.size();
+}
+
+/// The labels of a table of a study, the slowest first; empty: it is none.
+std::vector<const RecognisedColumn*> sorted_labels(const RecognisedData& data,
+                                                   std::vector<const RecognisedColumn*> labels) {
+  std::erase_if(labels, [&](const RecognisedColumn* c) { return different(data, *c) < 2; });
+  const auto changes = [&](const RecognisedColumn* c) {
+    const auto differ = [&](const auto& a, const auto& b) {
+      return a[place(data, *c)].text != b[place(data, *c)].text;
+    };
+    std::size_t n = 0;
+    for (std::size_t r = 1; r < data.csv.rows.size(); ++r) n += differ(data.csv.rows[r - 1], data.csv.rows[r]);
+    return n;
+  };
+  std::ranges::stable_sort(labels, {}, changes);
+  std::vector<const RecognisedColumn*> out;
+  std::size_t crossed = 1; // groups, if each word met each word of the others
+  for (const RecognisedColumn* c : labels) {
+    out.push_back(c);
+    crossed *= different(data, *c);
+    const std::size_t groups = stretches(data, out);
+    // Groups of one reading each tell nothing: operators may measure one part after the other. Parts of their own in
+    // each batch are drawn from many, as batches are: whether they scatter is seen on whole batches that are left out.
+    if (groups > 0 && 2 * groups <= data.csv.rows.size() && 3 * groups >= 2 * crossed) continue;
+    out.pop_back();
+    break;
+  }
+  // What is measured in cycles or on days follows in time.
+  return out.size() < 2 || counts_blocks(*out.front()) ? std::vector<const RecognisedColumn*>{} : out;
+}
+
+} // namespace
+
+std::vector<const RecognisedColumn*> sorted_by(const RecognisedData& data,
+                                               const std::vector<const RecognisedColumn*>& labels) {
+  const auto is_time = [](const RecognisedColumn& c) { return c.role == ColumnRole::time; };
+  if (std::ranges::any_of(data.columns, is_time)) return {};
+  if (const RecognisedColumn* c = sweep(data)) return {c};
+  return sorted_labels(data, labels);
 }
 
 } // namespace gumshoe::scenario

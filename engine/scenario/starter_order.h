@@ -17,8 +17,11 @@ std::vector<const RecognisedColumn*> restarted_by(const RecognisedData& data, co
 /// Columns of blocks with four numbers or more that never fall from one row to the next.
 std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data);
 
-/// The column of a position or a temperature by which the rows are sorted, up or down, where no time tells their order:
-/// a table of a calibration. Null: there is none.
-const RecognisedColumn* sorted_by(const RecognisedData& data);
+/// The columns by which the rows are sorted, where no time tells their order: a position or a temperature, up or down,
+/// in a table of a calibration; or two labels and more that are crossed, the slowest first, where readings of equal
+/// labels stand together: a table of a study. Empty: there are none.
+/// @param labels columns of words that tell readings apart
+std::vector<const RecognisedColumn*> sorted_by(const RecognisedData& data,
+                                               const std::vector<const RecognisedColumn*>& labels);
 
 } // namespace gumshoe::scenario

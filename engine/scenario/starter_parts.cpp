@@ -47,11 +47,41 @@ bool is_named(const RecognisedColumn& c, std::string_view name) {
   return words == wanted;
 }
 
+bool is_coordinate(const RecognisedColumn& c) {
+  const auto words = words_of(c.name);
+  return words.size() == 1 && words[0].size() == 1 &&
+         std::string_view("xyzabcuvw").find(words[0]) != std::string_view::npos;
+}
+
 namespace {
+
+/// Whether two columns divide the rows alike, as the number of a point and its position.
+bool divide_alike(const RecognisedData& data, const RecognisedColumn& a, const RecognisedColumn& b) {
+  std::set<std::pair<std::string_view, std::string_view>> pairs;
+  for (const auto& row : data.csv.rows)
+    pairs.emplace(row[static_cast<std::size_t>(data.csv.find(a.name))].text,
+                  row[static_cast<std::size_t>(data.csv.find(b.name))].text);
+  return pairs.size() == different(data, a) && pairs.size() == different(data, b);
+}
+
+/// Whether the numbers of a column, next to a position, are levels of something without a unit: stages 1 and 2,
+/// settings 200 and 300. A few, each met often, and not those of another column under another name.
+bool names_levels(const RecognisedData& data, const RecognisedColumn& c) {
+  constexpr std::size_t most = 6, rows_each = 4;
+  if (!c.number || c.gaps || c.unit != "?" || c.role != ColumnRole::other || c.basis == Basis::user ||
+      !c.clock.empty() || counts_rows(c) || is_circumstance(c) || is_coordinate(c) || !data.find(ColumnRole::position))
+    return false;
+  const std::size_t n = different(data, c);
+  return n > 1 && n <= most && rows_each * n <= data.csv.rows.size() &&
+         std::ranges::none_of(data.columns, [&](const RecognisedColumn& other) {
+           return &other != &c && (other.role != ColumnRole::other || !other.number || &other < &c) &&
+                  divide_alike(data, c, other);
+         });
+}
 
 /// Whether the words or the role of a column tell readings apart.
 bool tells_apart(const RecognisedData& data, const RecognisedColumn& c) {
-  if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment) return true;
+  if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment || names_levels(data, c)) return true;
   const std::size_t n = different(data, c);
   return c.role == ColumnRole::other && (!c.number || names_parts(c)) && c.clock.empty() && c.words.empty() && n > 1 &&
          2 * n <= data.csv.rows.size();
@@ -142,10 +172,12 @@ bool is_misprinted(const RecognisedData& data, const RecognisedColumn& c) {
 
 } // namespace
 
-NamedColumns labels_of(const RecognisedData& data) {
+NamedColumns labels_of(const RecognisedData& data, const std::set<std::string>& used) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
-    if (tells_apart(data, c) && !has_empty_cells(data, c) && !is_misprinted(data, c)) out.emplace_back("", &c);
+    if (tells_apart(data, c) && !has_empty_cells(data, c) && !is_misprinted(data, c) &&
+        !(used.contains(c.name) && names_levels(data, c)))
+      out.emplace_back("", &c);
   Names names{"reading", "row"};                       // labels that mean something else in a scenario
   if (!block_label(data, out)) names.reserve("block"); // stretches
   for (auto& [name, c] : out) name = names.add(c->name);
@@ -304,17 +336,23 @@ std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* 
 }
 
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
-  if (const auto* const label = block_label(data, labels))
+  std::vector<const RecognisedColumn*> columns;
+  for (const auto& label : labels) columns.push_back(label.second);
+  const std::vector<const RecognisedColumn*> sorted = sorted_by(data, columns);
+  if (const auto* const label = sorted.size() > 1 ? nullptr : block_label(data, labels))
     return line("blocks", toml_string(label->first), "an effect should recur in each of them");
   if (data.csv.rows.size() < 12)
     return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
            "them\n";
-  if (const RecognisedColumn* c = sorted_by(data))
+  if (!sorted.empty()) {
+    std::vector<std::string> names;
+    for (const RecognisedColumn* c : sorted) names.push_back(toml_string(c->name));
     return line("blocks", "{ count = 6, interleaved = true }",
-                fmt::format("guessed: the rows are sorted by {}, of which a stretch would be an end",
-                            toml_string(c->name))) +
+                fmt::format("guessed: the rows are sorted by {}, of which a stretch would be {}",
+                            fmt::join(names, ", "), sorted.size() > 1 ? "a few" : "an end")) +
            line("order", toml_string(unknown_order),
                 "guessed: leave it out if they were read in the order of the rows");
+  }
   return line("blocks", "{ count = 6 }", "guessed: no column tells four or more cycles apart");
 }
 

@@ -36,7 +36,6 @@ TargetColumns target_columns(const RecognisedData& data) {
 
 std::string starter_targets(const StarterData& data, const TargetColumns& columns, const std::string& scenario) {
   const RecognisedData& found = data.found;
-  const NamedColumns labels = labels_of(found);
   NamedColumns conditions, readings;
   std::set<std::string> used;
   Names names;
@@ -45,6 +44,7 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
     readings.emplace_back(names.add(reading->name), reading);
     used.insert({target->name, reading->name});
   }
+  const NamedColumns labels = labels_of(found, used);
 
   std::string out =
       fmt::format("# Question: which errors do the readings in {} show that offsets, scales and turned axes do not "

@@ -87,6 +87,21 @@ class NewColumns(Starter):
         (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
         self.assertNotIn("position", self.new("--from", "s.csv"))
 
+    def test_a_setting_of_few_numbers_tells_readings_apart(self):
+        """Next to a position, numbers without a unit that are met often; a setting of two values is no position."""
+        rows = ["QB,pressure_kPa,block,rate_um,point"] + [f"{flow},{x},{block},{x * x / flow:.3f},{x // 10}" for block in (1, 2) for flow in (200, 300) for x in range(10, 60, 10)]
+        (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+        self.new("--from", "p.csv")
+        text = (self.folder / "p.toml").read_text()
+        self.assertIn('qb = "QB"', text)
+        self.assertNotIn('"point"', text) # the position under another name
+        rows = ["stage,dilution,density_um"] + [f"{stage},{100 * level},{level * level / 7:.3f}" for level in (1, 2, 3, 4) for stage in (1, 2, 1, 2)]
+        (self.folder / "q.csv").write_text("\n".join(rows) + "\n")
+        self.new("--from", "q.csv")
+        text = (self.folder / "q.toml").read_text()
+        self.assertIn('position = "dilution"', text)
+        self.assertIn('stage = "stage"', text)
+
     def test_whole_numbers_that_count_passes_are_no_position(self):
         """A set, a start, whatever it is called: in each the same places come back. Of one place each it is a position."""
         for name, place, cycle in (("set", "pos_mm", True), ("start", "x_mm", True), ("Nummer", "Soll [N]", True), ("set", "feed_mm_min", False),

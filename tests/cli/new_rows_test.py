@@ -36,6 +36,18 @@ class Rows(Starter):
                 self.assertIn(f"signal_{unit}: reading, {unit} (", self.told([f"day,signal_{unit}"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
         self.assertIn("signal_percent: reading, % (", self.told(["day,signal_percent"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
 
+    def test_a_letter_of_a_temperature_is_no_farad(self):
+        for name, unit in (("Temp (F)", "degF"), ("temp_F", "degF"), ("T_F", "degF"), ("Temp (C)", "degC")):
+            with self.subTest(name):
+                said = self.told([f"{name},dia_um"] + [f"{68 + i * 7 % 11 / 10},{i * 5 % 13 / 10}" for i in range(30)])
+                self.assertIn(f"{name}: temperature, {unit} (by its name)", said)
+        self.assertIn("cap (F): reading, F", self.told(["day,cap (F)"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)]))
+
+    def test_a_month_is_a_label_and_what_tells_readings_apart_needs_no_unit(self):
+        said = self.told(["month,day,load_N,dia_um"] + [f"{m},{d},{(7 * m + 3 * d) % 11},{(5 * m + d) % 13 / 10}" for m in (5, 6, 7) for d in range(1, 13)])
+        self.assertIn("month: label, which tells readings apart\n", said)
+        self.assertIn("load_N: position, N", said)
+
     def test_a_rate_is_no_time(self):
         said = self.told(["day,rate_ml_h"] + [f"{i // 5},{i * 7 % 11 / 10}" for i in range(30)])
         self.assertIn("rate_ml_h: reading, mL/h (", said)

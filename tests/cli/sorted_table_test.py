@@ -1,4 +1,5 @@
-"""A table of a calibration, sorted by what was set: `new` says so, and `trace` takes a curve for no memory of the readings.
+"""Tables that are sorted by what was set: `new` says so, and `trace` takes a curve for no memory of the readings and leaves out no
+machine or part of a study.
 
 usage: sorted_table_test.py path/to/gumshoe [unittest options]
 """
@@ -56,6 +57,36 @@ class SortedTable(InOneFolder):
         with h5py.File(self.folder / "t.h5") as file:
             held_out = [i for i, final in enumerate(file["residuals/final"][:]) if final]
         self.assertEqual(held_out, list(range(5, POINTS, 6)))
+
+    def study(self, seed, rows):
+        chance = random.Random(seed)
+        lines = [f"{worker},{machine},{mean + chance.gauss(0, 1):.2f}" for worker, machine, mean in rows]
+        (self.folder / "log.csv").write_text("worker,machine,score_um\n" + "\n".join(lines) + "\n")
+        run = gumshoe("new", "--from", "log.csv", "--force", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return (self.folder / "log.toml").read_text()
+
+    def test_a_study_of_workers_and_machines(self):
+        """Six workers on three machines, three pieces each. In six stretches the last was half of a machine, whose workers were not
+        in the others; what they do on it passed for scatter."""
+        for seed in (1, 2, 3):
+            chance = random.Random(100 + seed)
+            cells = [(w, m, 50 + 5 * "ABC".index(m) + chance.gauss(0, 4)) for m in "ABC" for w in range(1, 7)]
+            text = self.study(seed, [cell for cell in cells for _ in range(3)])
+            self.assertIn('sorted by "machine", "worker"', text)
+            self.assertIn('order = "unknown"', text)
+            found = self.trace()
+            self.assertEqual([sorted(f["depends_on"]) for f in found["findings"]], [["machine", "worker"]], seed)
+            # Two of three pieces of a cell are known: sqrt(1 + 1/2) of the noise, 1 um, within 3 standard deviations of nine readings.
+            self.assertLess(found["rms"]["holdout_after"], 2.2e-6, seed)
+
+    def test_what_is_no_table_of_a_study(self):
+        """Parts of their own in each batch are drawn from many: there whole batches are left out. A piece each may be in the order
+        of measurement."""
+        nested = self.study(1, [(f"{lot}{w}", lot, 50) for lot in "ABCDEF" for w in range(3) for _ in range(3)])
+        once = self.study(1, [(w, m, 50) for m in "ABC" for w in range(1, 7)])
+        for text in (nested, once):
+            self.assertNotIn("unknown", text)
 
 
 if __name__ == "__main__":

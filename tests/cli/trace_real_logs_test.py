@@ -32,7 +32,7 @@ class RealLogs(InOneFolder):
         for bias, seeds in (((0.1, -0.2, 0.1), (1, 3)), ((-0.15, 0.15, -0.1), (4, 5, 8))):
             for seed in seeds:
                 on = [f["depends_on"] for f in self.gauge_study(seed, bias)["findings"]]
-                self.assertEqual(on, [["part"], ["operator"]], seed)
+                self.assertEqual({name for names in on for name in names}, {"part", "operator"}, seed)
         alike = [f["depends_on"] for seed in range(1, 7) for f in self.gauge_study(seed, (0, 0, 0))["findings"]]
         self.assertEqual(alike, [["part"]] * 6)
 
