@@ -23,6 +23,11 @@ def shown(key):
     return [x * key.display_factor + key.display_offset for x in key.values], key.display_units
 
 
+def of_labels(t):
+    """Whether all levels are parts, people or machines by name: what differs from one to the next may be what was to be measured."""
+    return all(isinstance(key.values[0], str) for key in t.keys.values())
+
+
 def table(t):
     """Heads and rows as text. What is subtracted from an indication corrects it: its error with the other sign."""
     unit, factor = unit_of(t)
@@ -36,7 +41,7 @@ def table(t):
                                    u=fixed(factor * row.u, places), readings=int(row.readings))
              for keys, row in zip(zip(*columns), t.rows)]
     return types.SimpleNamespace(heads=heads, rows=lines[:MOST], more=max(0, len(lines) - MOST), unit=unit_text(unit),
-                                 indication=t.indication.replace("_", " "))
+                                 indication=t.indication.replace("_", " "), of_labels=of_labels(t))
 
 
 def lines(t):

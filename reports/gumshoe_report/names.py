@@ -50,7 +50,7 @@ def harmonic(rest):
 FORMS = {"declared": lambda rest: f"{of_quantity(rest)} (declared)",
          "scatter": scatter,
          "table": lambda rest: f"any value by {by(rest)}",
-         "omnibus": lambda rest: f"any smooth dependence on {by(rest)}",
+         "omnibus": lambda rest: f"any dependence on {by(rest)}",
          "product": lambda rest: f"product of {joined([of_label(part) for part in rest.split('*', 1)])}",
          "harmonic": harmonic, "polynomial": polynomial,
          "hysteresis": lambda rest: f"direction of motion of {plain(rest)}",

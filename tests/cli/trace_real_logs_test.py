@@ -33,6 +33,11 @@ class RealLogs(InOneFolder):
             for seed in seeds:
                 on = [f["depends_on"] for f in self.gauge_study(seed, bias)["findings"]]
                 self.assertEqual({name for names in on for name in names}, {"part", "operator"}, seed)
+        run = gumshoe("report", "results/log.traced.h5", "--force", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        page = next((self.folder / "results").glob("log.traced*.html")).read_text()
+        self.assertIn("<h3>Differences</h3>", page)
+        self.assertNotIn("Table of compensation", page) # parts of several sizes are no error
         alike = [f["depends_on"] for seed in range(1, 7) for f in self.gauge_study(seed, (0, 0, 0))["findings"]]
         self.assertEqual(alike, [["part"]] * 6)
 

@@ -51,7 +51,7 @@ u = "0.1 um"
 
 class Page(Made):
     def test_candidates_have_readable_names(self):
-        self.assertEqual(trace.in_words("scatter:cycle | omnibus:time"), "scatter by cycle or any smooth dependence on time")
+        self.assertEqual(trace.in_words("scatter:cycle | omnibus:time"), "scatter by cycle or any dependence on time")
         for kind in KINDS:
             prose = re.sub(r"(?s)<(code|pre|script|style)\b.*?</\1>|<[^>]*>", " ", self.pages[kind])
             self.assertNotRegex(prose, r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|lag|wave|step|scatter|declared):\w")

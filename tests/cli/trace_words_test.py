@@ -43,7 +43,7 @@ class Words(unittest.TestCase):
         for name, said in (("trigger_latency", "trigger latency"), ("scatter:rod,setup", "scatter by rod and setup"),
                            ("declared:rod_length[rod 2]", "length of rod 2 is not what was declared"),
                            ("polynomial:feed^2", "square of feed"), ("table:x*direction", "any value by x and direction"),
-                           ("harmonic:2xscrew", "2 waves per turn of screw"), ("omnibus:time", "any smooth dependence on time")):
+                           ("harmonic:2xscrew", "2 waves per turn of screw"), ("omnibus:time", "any dependence on time")):
             self.assertEqual(trace.in_words(name), said)
         self.assertEqual(names.readable("declared:rod_length[rod 2]"), "length of rod 2 (declared)")
 
