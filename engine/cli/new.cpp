@@ -90,7 +90,7 @@ void tell(RecognisedData& data, const NewOptions& o) {
     const ColumnRole role = role_of(word);
     const bool further = role == ColumnRole::reading && std::exchange(told_readings, true); // there may be several
     for (auto& c : data.columns)                                                            // else one column has it
-      if (c.role == role && role != ColumnRole::other && !further) c.leave();
+      if (c.role == role && role != ColumnRole::other && role != ColumnRole::label && !further) c.leave();
     auto& c = column_of(data, column, "--role");
     c.take(role, scenario::Basis::user, "by --role");
   }
@@ -98,7 +98,8 @@ void tell(RecognisedData& data, const NewOptions& o) {
   const auto named_position = [](const std::string& text) { return assignment(text, "--role").second == "position"; };
   if (!data.find(ColumnRole::reading) && std::ranges::any_of(o.roles, named_position)) scenario::guess_roles(data);
   for (const std::string& text : o.units) {
-    const auto [column, unit] = assignment(text, "--unit");
+    auto [column, unit] = assignment(text, "--unit");
+    if (unit == "none" || unit == "-" || unit == "dimensionless") unit = "1";
     units::si_unit_of(unit);
     auto& c = column_of(data, column, "--unit");
     c.unit = unit;
@@ -231,7 +232,7 @@ void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
     const std::string quoted = scenario::toml_string(c.name);
     const bool used = uses(text, quoted);
-    const bool label = used && c.role == ColumnRole::other && is_label(text, quoted);
+    const bool label = used && (c.role == ColumnRole::other || c.role == ColumnRole::label) && is_label(text, quoted);
     const char* use = !used                                                    ? "not used"
                       : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
                       : label                                                  ? "label, which tells readings apart"
@@ -252,18 +253,23 @@ void print_columns(const RecognisedData& found, const std::string& text) {
 void print_rows(const RecognisedData& found, const std::string& file, const std::string& text) {
   std::vector<std::size_t> used;
   std::vector<std::string> names;
+  bool labels = false; // among them
   for (const auto& c : found.columns)
-    if (c.gaps && uses(text, scenario::toml_string(c.name))) {
+    if ((c.gaps || (is_label(text, scenario::toml_string(c.name)) && scenario::has_empty_cells(found, c))) &&
+        uses(text, scenario::toml_string(c.name))) {
       used.push_back(static_cast<std::size_t>(found.csv.find(c.name)));
       names.push_back(c.name);
+      labels |= !c.gaps;
     }
   const auto left_out = std::ranges::count_if(found.csv.rows, [&](const auto& row) {
     return std::ranges::any_of(used, [&](std::size_t c) { return scenario::says_missing(row[c].text); });
   });
   std::cout << fmt::format("{}: {} rows{}\n", file, found.csv.rows.size(),
-                           left_out == 0 ? ""
-                                         : fmt::format(", of which {} are left out: {} has no number there", left_out,
-                                                       fmt::join(names, " or ")));
+                           left_out == 0
+                               ? ""
+                               : fmt::format(", of which {} left out: {} {} there",
+                                             left_out == 1 ? "1 is" : fmt::format("{} are", left_out),
+                                             fmt::join(names, " or "), labels ? "has nothing" : "has no number"));
   if (const auto copied = scenario::copied_rows(found.csv); copied.rows > 0)
     std::cout << fmt::format(
         "  {} rows from line {} on are those from line {} on in every cell: were they copied? Rows "
@@ -367,11 +373,11 @@ void add_new(CLI::App& app, Action& action) {
                       "description of a log that is no table: a file, or the name of one that is shipped, such as "
                       "heidenhain_q");
   command->add_option("-o,--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
-  command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
+  command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it; 1 for numbers without one");
   command->add_option(
       "--role", o->roles,
       "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, alignment (its offset and slope are "
-      "fitted for each of its values), uncertainty, other");
+      "fitted for each of its values), label (its words or numbers tell readings apart), uncertainty, other");
   command
       ->add_option("--term", o->terms,
                    "of linear: a column, or a product such as load*machine; a column of words is a factor (default: "

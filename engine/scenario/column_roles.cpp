@@ -117,6 +117,20 @@ RecognisedColumn* follower(const RecognisedData& data, const std::vector<Recogni
   return of_one_unit ? nullptr : best;
 }
 
+/// Whether a column that is something else by its name holds what was read: numbers that were not set, and times that
+/// do not go on from row to row.
+bool was_read(const RecognisedData& data, const RecognisedColumn& c, ColumnRole named) {
+  if (!c.number || c.role != named || c.basis != Basis::name || !c.clock.empty() || was_set(data, c)) return false;
+  if (named != ColumnRole::time) return true;
+  const auto at = static_cast<std::size_t>(data.csv.find(c.name));
+  std::vector<double> t;
+  for (const auto& row : data.csv.rows)
+    if (!says_missing(row[at].text)) t.push_back(data.csv.number(row[at], data.decimal));
+  std::size_t falls = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) falls += t[i] < t[i - 1];
+  return 4 * falls > t.size();
+}
+
 } // namespace
 
 void guess_roles(RecognisedData& data) {
@@ -128,11 +142,12 @@ void guess_roles(RecognisedData& data) {
     const auto fitting = [&](const RecognisedColumn& c) {
       return c.number && c.role == ColumnRole::other && c.basis != Basis::user && !counts_rows(c) && !names_parts(c) &&
              (role != ColumnRole::position ||
-              (is_place(c) && different(data, c) > (c.unit == "?" ? 2u : 1u) && was_set(data, c))); // two are a setting
+              (is_place(c) && different(data, c) > 1 && was_set(data, c) && !names_levels(data, c)));
     };
-    // Numbers that recur and have no unit are names, such as those of inserts.
+    // Numbers that recur and have no unit are names, such as those of inserts; a coordinate that was set is a place.
     const auto likely = [&](const RecognisedColumn& c) {
-      return fitting(c) && !is_circumstance(c) && !(role == ColumnRole::reading && c.unit == "?" && was_set(data, c));
+      return fitting(c) && !is_circumstance(c) &&
+             !(role == ColumnRole::reading && (c.unit == "?" || (is_coordinate(c) && is_place(c))) && was_set(data, c));
     };
     if (role == ColumnRole::reading) {
       std::vector<RecognisedColumn*> all;
@@ -144,6 +159,12 @@ void guess_roles(RecognisedData& data) {
       }
     }
     auto one = std::find_if(first, end, likely);
+    // A force, a temperature or a time to failure may be what was read, whatever its name.
+    if (role == ColumnRole::reading &&
+        std::ranges::none_of(columns, [&](const auto& c) { return cell_with_unit(data, c); }))
+      for (const ColumnRole named : {ColumnRole::position, ColumnRole::time, ColumnRole::temperature})
+        if (one == end)
+          one = std::find_if(first, end, [&](const RecognisedColumn& c) { return was_read(data, c, named); });
     if (one == end) one = std::find_if(first, end, fitting);
     if (one == end) return;
     one->take(role, Basis::place, why);
@@ -165,7 +186,8 @@ void guess_roles(RecognisedData& data) {
         break;
       }
   for (RecognisedColumn& c : columns)
-    if (is_position_by_set(c) && c.unit == "?" && rises_by_one(data, c)) c.leave(); // it counts the readings
+    if (is_position_by_set(c) && c.unit == "?" && (is_circumstance(c) || rises_by_one(data, c)))
+      c.leave(); // feed_set; or it counts the readings
   // A pressure next to a target is no second position.
   for (bool known = false; RecognisedColumn & c : columns)
     if (c.role == ColumnRole::position && std::exchange(known, true) && c.basis == Basis::name) c.leave();
@@ -202,6 +224,23 @@ bool counts_rows(const RecognisedColumn& c) {
   return words.size() == 1 && names.contains(words.front());
 }
 
+bool is_coordinate(const RecognisedColumn& c) {
+  std::string rest;
+  unit_in(c.name, rest);
+  const auto words = words_of(rest);
+  return words.size() == 1 && words[0].size() == 1 &&
+         std::string_view("xyzabcuvw").find(words[0]) != std::string_view::npos;
+}
+
+bool names_levels(const RecognisedData& data, const RecognisedColumn& c) {
+  constexpr std::size_t most = 6, rows_each = 4;
+  if (!c.number || c.gaps || c.unit != "?" || c.role != ColumnRole::other || c.basis == Basis::user ||
+      !c.clock.empty() || counts_rows(c) || is_coordinate(c))
+    return false;
+  const std::size_t n = different(data, c);
+  return n > 1 && n <= most && rows_each * n <= data.csv.rows.size();
+}
+
 bool names_parts(const RecognisedColumn& c) {
   static const std::set<std::string> names{
       "operator",  "bediener", "observer", "lab",       "laboratory", "batch",      "lot",     "machine",
@@ -212,7 +251,8 @@ bool names_parts(const RecognisedColumn& c) {
       "prüfer",    "subject",  "patient",  "site",      "source",     "rail",       "plate",   "station",
       "fixture",   "supplier", "furnace",  "week",      "month",      "woche",      "monat"};
   const auto words = words_of(c.name);
-  return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
+  const bool none = c.unit == "?" || (c.unit == "1" && c.unit_told);
+  return none && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
 }
 
 const CsvCell* cell_with_unit(const RecognisedData& data, const RecognisedColumn& c) {

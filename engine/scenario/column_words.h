@@ -7,10 +7,10 @@
 
 namespace gumshoe::scenario {
 
-enum class ColumnRole { other, position, reading, direction, time, temperature, cycle, alignment, uncertainty };
+enum class ColumnRole { other, position, reading, direction, time, temperature, cycle, alignment, label, uncertainty };
 constexpr const char* name(ColumnRole r) {
-  constexpr const char* names[] = {"other",       "position", "reading",   "direction",  "time",
-                                   "temperature", "cycle",    "alignment", "uncertainty"};
+  constexpr const char* names[] = {"other",       "position", "reading",   "direction", "time",
+                                   "temperature", "cycle",    "alignment", "label",     "uncertainty"};
   return names[static_cast<int>(r)];
 }
 

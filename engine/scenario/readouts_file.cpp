@@ -158,6 +158,8 @@ private:
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto& row = csv.rows[rows[k]];
       const bool counts = filter_.keeps_labels(row);
+      const auto nameless = [&](const auto& label) { return row[label.second].text.empty(); };
+      if (!counts && std::ranges::any_of(labels_, nameless)) continue;
       Labels labels = labels_of(row);
       if (counts && next < blocks.size()) labels.emplace_back(stretch_label, blocks[next++]);
       bool good = values[k].has_value();

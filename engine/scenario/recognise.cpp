@@ -88,6 +88,7 @@ void take_times(RecognisedColumn& column, const std::vector<std::string>& texts,
   const std::string form = clock_form(texts);
   if (days && 2 * different <= texts.size()) {
     column.take(ColumnRole::cycle, Basis::cells, "by its dates");
+    column.clock = form;
   } else if (!form.empty()) {
     if (days || !named) column.take(ColumnRole::time, Basis::cells, days ? "by its dates" : "by its clock times");
     column.clock = form;

@@ -79,6 +79,13 @@ bool is_circumstance(const RecognisedColumn& column);
 /// Whether a column counts rows and measures nothing, by its name.
 bool counts_rows(const RecognisedColumn& column);
 
+/// Whether the numbers of a column are levels of something without a unit: stages 1 and 2, settings 200 and 300. They
+/// are few, and each is met often.
+bool names_levels(const RecognisedData& data, const RecognisedColumn& column);
+
+/// Whether a column is the place of the readings along an axis, by its name: "Y".
+bool is_coordinate(const RecognisedColumn& column);
+
 /// Whether the numbers of a column name parts, people or places, by its name: "operator 2".
 bool names_parts(const RecognisedColumn& column);
 

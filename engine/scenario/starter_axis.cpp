@@ -155,6 +155,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedData& found = data.found;
   const RecognisedColumn* const position = found.find(ColumnRole::position);
   const RecognisedColumn* reading = found.find(ColumnRole::reading);
+  if (!position || !reading) require_readable(found);
   if (!position || !reading)
     throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
                      "tell which it is: --role COLUMN=reading");

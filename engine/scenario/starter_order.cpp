@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string_view>
+
+#include "base/clock.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -68,6 +71,21 @@ std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data)
     if (!counts_blocks(c) || different(data, c) < least) continue;
     const std::vector<double> number = numbers_of(data, c);
     if (!number.empty() && std::ranges::is_sorted(number)) out.push_back(&c);
+  }
+  return out;
+}
+
+std::vector<const RecognisedColumn*> days_in_order(const RecognisedData& data) {
+  constexpr std::size_t least = 3;
+  std::vector<const RecognisedColumn*> out;
+  for (const RecognisedColumn& c : data.columns) {
+    if (c.role != ColumnRole::cycle || c.clock.empty() || different(data, c) < least) continue;
+    const ClockFormat form(c.clock);
+    std::vector<Moment> days;
+    for (const auto& row : data.csv.rows)
+      if (const std::optional<Moment> day = form.parse(row[place(data, c)].text)) days.push_back(*day);
+    const auto before = [](const Moment& a, const Moment& b) { return a.since(b) < 0; };
+    if (days.size() == data.csv.rows.size() && std::ranges::is_sorted(days, before)) out.push_back(&c);
   }
   return out;
 }

@@ -17,6 +17,9 @@ std::vector<const RecognisedColumn*> restarted_by(const RecognisedData& data, co
 /// Columns of blocks with four numbers or more that never fall from one row to the next.
 std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data);
 
+/// Columns of days that recur, three or more, none of which is before the one in the row above.
+std::vector<const RecognisedColumn*> days_in_order(const RecognisedData& data);
+
 /// The columns by which the rows are sorted, where no time tells their order: a position or a temperature, up or down,
 /// in a table of a calibration; or two labels and more that are crossed, the slowest first, where readings of equal
 /// labels stand together: a table of a study. Empty: there are none.

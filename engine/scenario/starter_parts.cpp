@@ -47,12 +47,6 @@ bool is_named(const RecognisedColumn& c, std::string_view name) {
   return words == wanted;
 }
 
-bool is_coordinate(const RecognisedColumn& c) {
-  const auto words = words_of(c.name);
-  return words.size() == 1 && words[0].size() == 1 &&
-         std::string_view("xyzabcuvw").find(words[0]) != std::string_view::npos;
-}
-
 namespace {
 
 /// Whether two columns divide the rows alike, as the number of a point and its position.
@@ -64,37 +58,28 @@ bool divide_alike(const RecognisedData& data, const RecognisedColumn& a, const R
   return pairs.size() == different(data, a) && pairs.size() == different(data, b);
 }
 
-/// Whether the numbers of a column, next to a position, are levels of something without a unit: stages 1 and 2,
-/// settings 200 and 300. A few, each met often, and not those of another column under another name.
-bool names_levels(const RecognisedData& data, const RecognisedColumn& c) {
-  constexpr std::size_t most = 6, rows_each = 4;
-  if (!c.number || c.gaps || c.unit != "?" || c.role != ColumnRole::other || c.basis == Basis::user ||
-      !c.clock.empty() || counts_rows(c) || is_circumstance(c) || is_coordinate(c) || !data.find(ColumnRole::position))
-    return false;
-  const std::size_t n = different(data, c);
-  return n > 1 && n <= most && rows_each * n <= data.csv.rows.size() &&
-         std::ranges::none_of(data.columns, [&](const RecognisedColumn& other) {
-           return &other != &c && (other.role != ColumnRole::other || !other.number || &other < &c) &&
-                  divide_alike(data, c, other);
-         });
-}
-
 /// Whether the words or the role of a column tell readings apart.
 bool tells_apart(const RecognisedData& data, const RecognisedColumn& c) {
-  if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment || names_levels(data, c)) return true;
   const std::size_t n = different(data, c);
+  if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment) return n > 1;
+  if (c.role == ColumnRole::label || names_levels(data, c)) return true;
   return c.role == ColumnRole::other && (!c.number || names_parts(c)) && c.clock.empty() && c.words.empty() && n > 1 &&
          2 * n <= data.csv.rows.size();
 }
 
-/// Whether the column is empty in a row that has a reading.
-bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& c) {
+/// Number of rows with a reading in which the column is empty.
+std::size_t empty_cells(const RecognisedData& data, const RecognisedColumn& c) {
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
   const RecognisedColumn* const reading = data.find(ColumnRole::reading);
-  return std::ranges::any_of(data.csv.rows, [&](const auto& row) {
+  return static_cast<std::size_t>(std::ranges::count_if(data.csv.rows, [&](const auto& row) {
     return row[column].text.empty() &&
            !(reading && says_missing(row[static_cast<std::size_t>(data.csv.find(reading->name))].text));
-  });
+  }));
+}
+
+/// Whether so many rows have no text in the column that it may be one of remarks.
+bool mostly_empty(const RecognisedData& data, const RecognisedColumn& c) {
+  return 10 * empty_cells(data, c) > data.csv.rows.size();
 }
 
 } // namespace
@@ -133,7 +118,7 @@ std::string line_of(const Csv& csv, const CsvCell& cell) {
 }
 
 /// The cells that keep a column, of which most are numbers, from being one of numbers; empty if there are none.
-std::string odd_cells(const RecognisedData& data, const RecognisedColumn& c) {
+std::vector<const CsvCell*> odd_cells_of(const RecognisedData& data, const RecognisedColumn& c) {
   if (c.number) return {};
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
   std::vector<const CsvCell*> odd;
@@ -146,7 +131,13 @@ std::string odd_cells(const RecognisedData& data, const RecognisedColumn& c) {
     else
       odd.push_back(&cell);
   }
-  if (odd.empty() || numbers <= odd.size()) return {};
+  return numbers > odd.size() ? odd : std::vector<const CsvCell*>{};
+}
+
+/// The same in words.
+std::string odd_cells(const RecognisedData& data, const RecognisedColumn& c) {
+  const std::vector<const CsvCell*> odd = odd_cells_of(data, c);
+  if (odd.empty()) return {};
   std::string out = fmt::format("'{}' in {} is not a number", odd[0]->text, line_of(data.csv, *odd[0]));
   if (odd.size() > 1) out += fmt::format(", nor are {} more of its cells", odd.size() - 1);
   return out;
@@ -172,10 +163,29 @@ bool is_misprinted(const RecognisedData& data, const RecognisedColumn& c) {
 
 } // namespace
 
+bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& label) { return empty_cells(data, label) > 0; }
+
+namespace {
+
+/// The column before it, or one with a role, that divides the rows alike; null: there is none.
+const RecognisedColumn* other_name_of(const RecognisedData& data, const RecognisedColumn& c) {
+  if (c.role != ColumnRole::other) return nullptr;
+  const auto is = [&](const RecognisedColumn& other) {
+    const bool known = other.role == ColumnRole::position || other.role == ColumnRole::cycle ||
+                       other.role == ColumnRole::alignment || other.role == ColumnRole::label ||
+                       (&other < &c && tells_apart(data, other));
+    return &other != &c && known && divide_alike(data, c, other);
+  };
+  const auto one = std::ranges::find_if(data.columns, is);
+  return one == data.columns.end() ? nullptr : &*one;
+}
+
+} // namespace
+
 NamedColumns labels_of(const RecognisedData& data, const std::set<std::string>& used) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
-    if (tells_apart(data, c) && !has_empty_cells(data, c) && !is_misprinted(data, c) &&
+    if (tells_apart(data, c) && !mostly_empty(data, c) && !is_misprinted(data, c) && !other_name_of(data, c) &&
         !(used.contains(c.name) && names_levels(data, c)))
       out.emplace_back("", &c);
   Names names{"reading", "row"};                       // labels that mean something else in a scenario
@@ -195,7 +205,13 @@ const RecognisedColumn* uncertainty_of(const RecognisedData& data) {
 }
 
 std::string why_not_used(const RecognisedData& data, const RecognisedColumn& c) {
-  if (tells_apart(data, c) && has_empty_cells(data, c)) return "it has empty cells, and a label has none";
+  const bool never_changes = data.csv.rows.size() > 1 && different(data, c) == 1;
+  if (never_changes && (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment || c.why.empty()))
+    return "it is the same in every row";
+  if (tells_apart(data, c) && mostly_empty(data, c))
+    return "it is empty in more than a tenth of the rows, and a label is in none";
+  if (const RecognisedColumn* const other = tells_apart(data, c) ? other_name_of(data, c) : nullptr)
+    return fmt::format("it divides the rows as {} does", other->name);
   const RecognisedColumn* const first = data.find(c.role);
   if (c.role == ColumnRole::time && first && first != &c && first->date != c.name) return "the time is " + first->name;
   if (c.role == ColumnRole::uncertainty && first == &c && !uncertainty_of(data))
@@ -251,9 +267,12 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
     if (c.gaps && used.contains(c.name))
       where += fmt::format("{}{} = {{ not = {} }}", where.empty() ? "" : ", ", toml_string(c.name),
                            missing_of(data.found, c));
+  for (const auto& [name, c] : labels)
+    if (has_empty_cells(data.found, *c))
+      where += fmt::format("{}{} = {{ not = \"\" }}", where.empty() ? "" : ", ", toml_string(c->name));
   if (recur(data.found, labels, conditions))
     out += line("repeats", "\"apart\"", "rows that agree in all this are readings of their own, in their order");
-  if (!where.empty()) out += line("where", "{ " + where + " }", "rows without a number are left out");
+  if (!where.empty()) out += line("where", "{ " + where + " }", "rows without a number or a label are left out");
   out += "\n[data.units]\n";
   for (const RecognisedColumn& c : data.found.columns)
     if (c.number && c.unit != "1" && used.contains(c.name))
@@ -297,6 +316,20 @@ bool measured_position(const RecognisedData& data, const RecognisedColumn& posit
   if (kind(position) != kind(reading)) return false;
   const double share = range(data, reading) / range(data, position);
   return share > 0.5 && share < 2; // an axis errs by less than half of its travel
+}
+
+void require_readable(const RecognisedData& data) {
+  for (const RecognisedColumn& c : data.columns) {
+    if (const CsvCell* const cell = cell_with_unit(data, c))
+      throw InputError(
+          {{data.csv.at(*cell), fmt::format("the cells of the column '{}' are no numbers: '{}'", c.name, cell->text),
+            "they hold their unit", "write numbers alone, and the unit in the column's name, as size (mm)"}});
+    if (const auto odd = odd_cells_of(data, c); !odd.empty() && c.clock.empty() && c.words.empty())
+      throw InputError({{data.csv.at(*odd[0]),
+                         fmt::format("the column '{}' has a cell that is no number: '{}'", c.name, odd[0]->text),
+                         odd.size() == 1 ? "" : fmt::format("{} more of its cells are none", odd.size() - 1),
+                         "leave such cells empty: their rows are left out"}});
+  }
 }
 
 void require_numbers(const RecognisedData& data, const RecognisedColumn& c, const std::string& role) {
@@ -389,6 +422,9 @@ std::string columns_of(const RecognisedData& data, Names& names, std::set<std::s
       if (!restarts.empty() || c->role != ColumnRole::cycle)
         others += line(names.add(c->name + "_number"), column_text(*c),
                        fmt::format("what changes from one {} to the next", c->name));
+  if (ordered_by.empty())
+    for (const RecognisedColumn* c : days_in_order(data))
+      others += line(names.add(c->name + "_time"), column_text(*c), "what changes from one day to the next");
   const std::string columns = first + others;
   std::string in_order = ordered_by.empty() ? "" : line("order", toml_string(ordered_by), "");
   if (!restarts.empty()) {

@@ -25,22 +25,25 @@ std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* 
 
 /// Whether a column has this name, but for its unit: "X_mm" is X.
 bool is_named(const RecognisedColumn& c, std::string_view name);
-/// Columns whose words tell readings apart: cycles, texts that recur and, next to a position, few numbers without a
-/// unit. One with empty cells is none.
+/// Columns whose words tell readings apart: cycles, texts that recur, and few numbers without a unit. Rows with an
+/// empty cell in one are left out; with many of them it is none. One that is another under a second name is none.
 /// @param used names of columns that are read as numbers
 NamedColumns labels_of(const RecognisedData& data, const std::set<std::string>& used = {});
+/// Whether a label is empty in a row that has a reading.
+bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& label);
 /// The column of the readings' standard uncertainties, all of them above 0; null: there is none.
 const RecognisedColumn* uncertainty_of(const RecognisedData& data);
 /// Why a scenario does not use a column, or what its role rests on; empty: nothing to say.
 std::string why_not_used(const RecognisedData& data, const RecognisedColumn& column);
 
-/// Whether a column is the place of the readings along an axis, "Y".
-bool is_coordinate(const RecognisedColumn& column);
 /// Whether the words of a column alternate: each part was measured again after others.
 bool comes_back(const RecognisedData& data, const RecognisedColumn& column);
 /// Comment on a quantity that is fitted for each value of a label. @param why  "because they differ"; may be empty
 std::string by_label_comment(const std::string& label, const std::string& why);
 
+/// Where there is no column of readings: refuses a file that has one but for some of its cells, or for the units in
+/// them.
+void require_readable(const RecognisedData& data);
 /// Refuses a column that a scenario needs as numbers and that has a cell of another kind. @param role  "readings"
 void require_numbers(const RecognisedData& data, const RecognisedColumn& column, const std::string& role);
 

@@ -92,11 +92,7 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
   const RecognisedData& found = data.found;
   const NamedColumns labels = labels_of(found);
   NamedColumns readings = readings_of(found);
-  for (const RecognisedColumn& c : readings.empty() ? found.columns : std::vector<RecognisedColumn>{})
-    if (const CsvCell* const cell = cell_with_unit(found, c))
-      throw InputError(
-          {{found.csv.at(*cell), fmt::format("the cells of the column '{}' are no numbers: '{}'", c.name, cell->text),
-            "they hold their unit", "write numbers alone, and the unit in the column's name, as size (mm)"}});
+  if (readings.empty()) require_readable(found);
   if (readings.empty())
     throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
                      "tell which it is: --role COLUMN=reading");
@@ -115,8 +111,8 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
   for (const auto& [name, c] : readings) offsets[name] = names.add(name + "_offset");
   NamedColumns further;
   for (const RecognisedColumn& c : found.columns)
-    if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
-        different(found, c) > 1) {
+    if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) && !names_levels(found, c) &&
+        !used.contains(c.name) && different(found, c) > 1) {
       further.emplace_back(names.add(c.name), &c);
       used.insert(c.name);
     }

@@ -95,12 +95,12 @@ class NewColumns(Starter):
         text = (self.folder / "p.toml").read_text()
         self.assertIn('qb = "QB"', text)
         self.assertNotIn('"point"', text) # the position under another name
-        rows = ["stage,dilution,density_um"] + [f"{stage},{100 * level},{level * level / 7:.3f}" for level in (1, 2, 3, 4) for stage in (1, 2, 1, 2)]
+        rows = ["stage,depth,density_um"] + [f"{stage},{100 * level},{level * level / 7:.3f}" for level in range(1, 9) for stage in (1, 2, 1, 2)]
         (self.folder / "q.csv").write_text("\n".join(rows) + "\n")
-        self.new("--from", "q.csv")
+        self.new("--from", "q.csv", "--unit", "depth=none")
         text = (self.folder / "q.toml").read_text()
-        self.assertIn('position = "dilution"', text)
-        self.assertIn('stage = "stage"', text)
+        self.assertIn('position = "depth"', text)
+        self.assertIn('labels = { stage = "stage" }', text)
 
     def test_whole_numbers_that_count_passes_are_no_position(self):
         """A set, a start, whatever it is called: in each the same places come back. Of one place each it is a position."""

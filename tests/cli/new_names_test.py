@@ -83,8 +83,14 @@ class NewNames(Starter):
         for name in ("remark", "run"):
             rows = [(k % 6 * 50, 0.7 * k * k % 1, "door open" if k % 5 == 0 else "") for k in range(24)]
             said, written = self.good(table(["pos_mm", "err_um", name], rows))
-            self.assertIn(f"{name}: not used (it has empty cells, and a label has none)", said)
+            self.assertIn(f"{name}: not used (it is empty in more than a tenth of the rows, and a label is in none)", said)
             self.assertNotIn("labels = ", written)
+        # One that a row or two do not state is a label all the same; these rows are left out.
+        rows = [(k % 6 * 50, 0.7 * k * k % 1, "" if k == 7 else "ABCD"[k // 6]) for k in range(24)]
+        said, written = self.good(table(["pos_mm", "err_um", "run"], rows))
+        self.assertIn("24 rows, of which 1 is left out: run has nothing there", said)
+        self.assertIn('labels = { run = "run" }', written)
+        self.assertIn('where = { "run" = { not = "" } }', written)
         # A row without a reading is left out, and its label with it.
         rows = [(k % 6 * 50, "" if k == 9 else 0.7 * k * k % 1, "" if k == 9 else "ABCD"[k // 6]) for k in range(24)]
         _, written = self.good(table(["pos_mm", "err_um", "run"], rows))

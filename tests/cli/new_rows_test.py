@@ -68,6 +68,40 @@ class Rows(Starter):
         other = self.told(["day,size_mm,width_um"] + [f"{i // 5},25.{i} mm,{i * 7 % 11 / 10}" for i in range(30)])
         self.assertIn("its cells hold their unit, as '25.0 mm'", other)
 
+    def test_cells_beyond_a_limit_are_said(self):
+        """An overflow, a detection limit: the error names the cell, whether the column was told or not."""
+        for cell in ("OL", "<0.01"):
+            lines = ["part,size_mm"] + [f"P{i % 5},{cell if i == 7 else 25 + i * 7 % 11 / 10}" for i in range(30)]
+            for more in ((), ("--role", "size_mm=reading")):
+                (self.folder / "log.csv").write_text("\n".join(lines) + "\n")
+                said = self.new("--from", "log.csv", "--force", *more, code=2)
+                self.assertIn(f"log.csv:9:4: error: the column 'size_mm' has a cell that is no number: '{cell}'. Leave such cells empty", said)
+
+    def test_what_was_read_may_have_the_name_of_a_condition(self):
+        """A force that scatters next to settings; a time to failure; a coordinate to the right of its error."""
+        for name in ("force [N]", "angle (deg)", "time_to_fail (s)", "T (degC)"):
+            with self.subTest(name):
+                lines = [f"dilution,{name},machine"] + [f"{(1, 2, 5)[i % 3]},{50 + i * 7919 % 1009 / 100},{'AB'[i % 2]}" for i in range(36)]
+                said = self.told(lines)
+                self.assertIn(f"{name}: reading", said)
+                self.assertIn("dilution: label", said)
+        lines = ["run,e (um),x (mm)"] + [f"{i // 6 + 1},{i * 7919 % 1009 / 100},{i % 6 * 50}" for i in range(36)]
+        said = self.told(lines)
+        self.assertIn("x (mm): position, mm", said)
+        self.assertIn("e (um): reading, um", said)
+
+    def test_a_label_under_a_second_name_and_one_that_never_changes(self):
+        said = self.told(["part,part_id,rev,size_mm"] + [f"P{i % 5},{100 + i % 5},3,{25 + i * 7 % 11 / 10}" for i in range(30)])
+        self.assertIn("part_id: not used, unit unknown (it divides the rows as part does)", said)
+        self.assertIn("rev: not used (it is the same in every row)", said)
+
+    def test_a_number_that_is_told_to_have_no_unit_stays_a_part(self):
+        lines = ["day,size_mm"] + [f"{i // 5},{25 + i * 7 % 11 / 10}" for i in range(30)]
+        self.told(lines)
+        for more in (("--unit", "day=1"), ("--unit", "day=none"), ("--role", "day=label")):
+            self.new("--from", "log.csv", "--force", *more)
+            self.assertIn('labels = { day = "day" }', (self.folder / "log.toml").read_text(), more)
+
     def test_rows_that_are_left_out_are_counted(self):
         lines = rows()
         for i in (3, 17, 18):
