@@ -167,14 +167,19 @@ bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& label) 
 
 namespace {
 
-/// The column before it, or one with a role, that divides the rows alike; null: there is none.
+/// The column before it, or one with a role, that divides the rows alike and shares a word of its name, as part and
+/// part_id do, or of numbers the position; null: there is none. An operator with a machine of his own is no other name.
 const RecognisedColumn* other_name_of(const RecognisedData& data, const RecognisedColumn& c) {
   if (c.role != ColumnRole::other) return nullptr;
   const auto is = [&](const RecognisedColumn& other) {
     const bool known = other.role == ColumnRole::position || other.role == ColumnRole::cycle ||
                        other.role == ColumnRole::alignment || other.role == ColumnRole::label ||
                        (&other < &c && tells_apart(data, other));
-    return &other != &c && known && divide_alike(data, c, other);
+    const auto words = words_of(other.name);
+    const bool shared = std::ranges::any_of(
+        words_of(c.name), [&](const std::string& w) { return std::ranges::find(words, w) != words.end(); });
+    return &other != &c && known && (shared || (c.number && other.role == ColumnRole::position)) &&
+           divide_alike(data, c, other);
   };
   const auto one = std::ranges::find_if(data.columns, is);
   return one == data.columns.end() ? nullptr : &*one;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/effect_of.h"
 #include "scenario/document.h"
@@ -243,6 +244,28 @@ void state_sizes_sought(const scenario::Scenario& scenario, Trace& out) {
   }
 }
 
+/// What the model itself takes up, a reversal or a slope: an error of that shape is no finding, however large.
+void state_model_fit(const scenario::Scenario& scenario, Trace& out) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> fitted;
+  for (const calibration::Parameter& p : out.estimate.parameters) {
+    if (p.unknown.quantity >= scenario.quantities.size() || !std::isfinite(p.standard_uncertainty)) continue;
+    const quantities::InputQuantity& q = scenario.quantities[p.unknown.quantity];
+    if (!q.estimated || q.entries.size() != 1 || !quantities::effect_of(q.name).empty()) continue;
+    const std::string unit = display_unit(out.rms, q.unit, q.si_unit);
+    const double u = units::from_si(p.standard_uncertainty, unit, q.si_unit, units::Kind::difference);
+    const int decimals = analysis::decimals_for(u);
+    fitted.push_back(fmt::format(
+        "{} = {}{}, u = {}{}", q.name, analysis::fixed(units::from_si(p.value, unit, q.si_unit), decimals),
+        units::suffix(unit), analysis::fixed(u, decimals), units::suffix(units::difference_unit(unit, q.si_unit))));
+  }
+  if (std::ranges::all_of(fitted, [](const std::string& text) { return text.find("offset = ") != text.npos; })) return;
+  const std::size_t more = fitted.size() - std::min(most, fitted.size());
+  fitted.resize(fitted.size() - more);
+  out.statements.push_back(fmt::format("fitted with the model, so that it is in no finding: {}{}",
+                                       fmt::join(fitted, "; "), more > 0 ? fmt::format("; and {} more", more) : ""));
+}
+
 /// @param converged whether the fit of the declared model did
 Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool& converged) {
   Trace out;
@@ -324,6 +347,7 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
   }
   compose(c, stands, out);
   state_sizes_sought(scenario, out);
+  state_model_fit(scenario, out);
   std::ranges::move(fitted_by_label(out), std::back_inserter(out.statements));
   summarise(out);
   return out;

@@ -47,10 +47,12 @@ const Covariate* time_of(const Observations& o) {
   return out;
 }
 
-/// What may act late: no place or angle that a slide was sent to, and nothing that never returns, as time does.
+/// What may act late: no place or angle that a slide was sent to, no direction, and nothing that never returns, as time
+/// does.
 bool may_act_late(const Covariate& c) {
   const bool place = c.commanded && (c.si_unit == "m" || c.si_unit == "rad");
-  return !c.course && !c.angle && !place && c.levels.size() > 1;
+  const bool direction = c.commanded && c.si_unit == "1" && c.levels == std::vector<double>{-1, 1};
+  return !c.course && !c.angle && !place && !direction && c.levels.size() > 1;
 }
 
 /// Whether another condition or column was recorded that goes along with what follows: the temperature of a column,
