@@ -17,7 +17,8 @@ std::vector<Key> keys() {
       {"every", shape::reference("width"), "length of a stretch, counted from the first reading"},
       {"count", shape::whole(2, most_blocks), "number of stretches with equally many rows"},
       {"interleaved", shape::flag(),
-       "with count: rows are dealt to the blocks in turn, where a stretch would be an end of what they sweep through"},
+       "with count: rows are dealt to the blocks in turn, each round from the next block on, where a stretch would be "
+       "an end of what they sweep through"},
       {"of", shape::text(), "condition or column by which they go, such as the time; default: the order of [trace]"}};
 }
 
@@ -44,7 +45,8 @@ std::optional<StretchAxis> read_axis(Table& blocks, const Node& trace_node, cons
   return std::nullopt;
 }
 
-/// Equally many rows in each stretch, by the order of the axis or of the rows; or, interleaved, every so many.
+/// Equally many rows in each stretch, by the order of the axis or of the rows; or, interleaved, dealt in turn. Each
+/// round of dealing begins one block later: rows whose labels come back with its length would be in one block alone.
 std::vector<double> counted(Table& blocks, const std::optional<StretchAxis>& axis, std::size_t n) {
   std::vector<double> out(n);
   const auto count = blocks.integer("count", 2, most_blocks);
@@ -57,7 +59,8 @@ std::vector<double> counted(Table& blocks, const std::optional<StretchAxis>& axi
   const auto blocks_wanted = static_cast<std::size_t>(*count);
   const bool interleaved = blocks.boolean("interleaved").value_or(false);
   for (std::size_t rank = 0; rank < n; ++rank)
-    out[order[rank]] = static_cast<double>(interleaved ? rank % blocks_wanted : rank * blocks_wanted / n);
+    out[order[rank]] =
+        static_cast<double>(interleaved ? (rank + rank / blocks_wanted) % blocks_wanted : rank * blocks_wanted / n);
   return out;
 }
 

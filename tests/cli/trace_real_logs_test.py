@@ -41,6 +41,40 @@ class RealLogs(InOneFolder):
         alike = [f["depends_on"] for seed in range(1, 7) for f in self.gauge_study(seed, (0, 0, 0))["findings"]]
         self.assertEqual(alike, [["part"]] * 6)
 
+    def test_what_the_model_takes_up_is_told(self):
+        """A reversal of 2 um, fitted as half of it: no finding, and yet what a user of an axis wants to know."""
+        chance = random.Random(4)
+        rows = [f"{run},{x},{way},{0.004 * x + (1 if way == '+' else -1) + chance.gauss(0, 0.5):.2f}"
+                for run in range(1, 6) for way in "+-" for x in (range(0, 500, 50) if way == "+" else range(450, -50, -50))]
+        found = self.trace("run,pos_mm,direction,dev_um", rows)
+        self.assertEqual(found["findings"], [])
+        told = next(s for s in found["statements"] if s.startswith("fitted with the model, so that it is in no finding: "))
+        half, u = map(float, re.search(r"reversal = (\S+) um, u = (\S+) um", told).groups())
+        self.assertAlmostEqual(half, 1, delta=3.3 * u) # once in a thousand
+        self.assertRegex(told, r"gain = 0\.00\d+ um/mm, u = ")
+
+    def test_a_wild_reading_among_those_held_out(self):
+        for seed in (1, 2, 3):
+            chance = random.Random(seed)
+            rows = [f"{i // 8 + 1},{'ABCD'[i % 4]},{chance.gauss(0, 1) + (9 if i == 45 else 0):.2f}" for i in range(48)]
+            found = self.trace("day,part,dev_um", rows)
+            self.assertEqual(found["findings"], [], seed)
+            said = " ".join(found["plain"])
+            self.assertRegex(said, "the worst, reading 46 .* by|outlying: reading 46")
+            self.assertRegex(said, "It is that reading alone: check it|Check it")
+            self.assertNotIn("No candidate explains it: noise alone gives as much", said)
+
+    def test_an_operator_with_more_noise_in_a_sorted_table(self):
+        """Eight parts, four operators, three readings of each; Cem has four times the noise of the others. Blocks that are dealt in turn
+        had one half of the operators each."""
+        for seed in (1, 2, 3):
+            chance = random.Random(seed)
+            rows = [f"P{p},{who},{100 + chance.gauss(0, 4 if who == 'Cem' else 1):.2f}" for p in range(1, 9) for who in ("Anna", "Ben", "Cem", "Dora") for _ in range(3)]
+            found = self.trace("part,operator,width_um", rows)
+            self.assertEqual(found["findings"], [], seed)
+            told = next((s for s in found["statements"] if "differs by operator" in s), "")
+            self.assertRegex(told, r"of (?!.*Cem and).*, [2-7]\.?\d* um of Cem", seed)
+
     def late(self, seed, tau, slope):
         """Readings every quarter of an hour of a workpiece that follows the air."""
         chance = random.Random(seed)

@@ -118,6 +118,22 @@ bool outliers_enlarge(const Trace& t) {
   return !t.outliers.empty() && without <= t.rms.noise_high * t.rms.noise_high;
 }
 
+/// Held-out readings that are off by four times the noise, where without them the error is as noise gives it; 0: none,
+/// or more is left.
+std::size_t far_held_out(const Trace& t) {
+  constexpr double far = 4;
+  std::size_t count = 0, others = 0;
+  double squares = 0;
+  for (const Row& row : t.rows) {
+    if (!row.held_out || row.indication > 0 || !std::isfinite(row.after)) continue;
+    const bool is_far = std::fabs(row.after) > far * t.rms.noise;
+    is_far ? ++count : ++others;
+    if (!is_far) squares += row.after * row.after;
+  }
+  const double most = t.rms.holdout_noise_high * t.rms.holdout_noise_high * static_cast<double>(others);
+  return others > count && squares <= most ? count : 0;
+}
+
 /// A large part of the noise that the fit takes from group to group, and that may be chance.
 std::string unsure_scatter(const Trace& t) {
   if (t.noise.scatter.empty() || !(t.noise.scatter_u >= criteria.told_scatter * t.rms.noise)) return "";
@@ -138,6 +154,11 @@ std::string what_residuals_show(const Trace& t) {
       fmt::format("noise alone gives residuals like these in only {:.2g} % of cases: ", 100 * t.p_anything);
   const std::string bad = bad_readings(t);
   if (held_out_exceeds(r) && !bad.empty()) return "No candidate explains it. " + bad;
+  if (const std::size_t far = held_out_exceeds(r) && t.of_indications.empty() ? far_held_out(t) : 0; far > 0)
+    return far == 1 ? "It is that reading alone: check it. Without it they differ by no more than noise gives."
+                    : fmt::format("It is {} readings that are far off: check them. Without them they differ by no more "
+                                  "than noise gives.",
+                                  far);
   constexpr double by_far = 1.5; // no chance of one in forty
   if (held_out_exceeds(r))
     return fmt::format("No candidate explains it: {}{}",

@@ -21,7 +21,8 @@ struct Stretch {
   Residuals residuals;
 };
 
-/// About a constant, and from eight readings on a straight line in time. What the mean of equal conditions takes of a
+/// About a constant, and from eight readings on a straight line in time; where the order of measurement is not known,
+/// nothing can drift. What the mean of equal conditions takes of a
 /// reading, it takes by the reading's share of their weight.
 /// @param ratio  by group: the noise by which they are weighted
 std::vector<Stretch> stretches(const Observations& o, std::size_t indication, const Grouping& label,
@@ -40,7 +41,7 @@ std::vector<Stretch> stretches(const Observations& o, std::size_t indication, co
   std::vector<Stretch> out;
   for (const auto& [where, all] : of) {
     const auto n = index(all.size());
-    const Index used = n < 8 ? 1 : 2; // a drift within few readings counts as noise
+    const Index used = !o.order_known ? 0 : n < 8 ? 1 : 2; // a drift within few readings counts as noise
     if (n < 2 * used) continue;
     Matrix columns(n, used);
     Vector left(n);
@@ -48,8 +49,9 @@ std::vector<Stretch> stretches(const Observations& o, std::size_t indication, co
       left[i] = about[index(all[index(i)])];
       columns.row(i) = Eigen::RowVector2d(1, static_cast<double>(2 * i) / static_cast<double>(n) - 1).head(used);
     }
-    const Eigen::HouseholderQR<Matrix> qr(columns);
-    const Matrix q = qr.householderQ() * Matrix::Identity(n, used);
+    const Matrix q = used == 0
+                         ? Matrix(n, 0)
+                         : Matrix(Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(n, used));
     left -= q * (q.transpose() * left);
     Stretch one{where.first, where.second, {}};
     for (Index i = 0; i < n; ++i) {
@@ -227,7 +229,8 @@ NoiseByLabel refined(const NoiseByLabel& so_far, const Observations& o, const Re
   const Judged found = judged(all, count, 1);
   NoiseByLabel out = noise_of(label, found, o);
   out.gain = found.gain;
-  out.plain = out.gain > 0 && largest_ratio(out) > criteria.unequal_spread && without_any(all, count);
+  out.plain = out.gain > 0 && largest_ratio(out) > criteria.unequal_spread &&
+              (!o.order_known || without_any(all, count)); // rows that were sorted have no bad stretch
   return out;
 }
 

@@ -70,7 +70,7 @@ Replicates find_replicates(const Observations& o) {
     if (g.group != o.blocks.group && (out.passes_are_blocks ? comes_back(level, out.pass) : !repeated_step))
       out.factors.push_back({g.name, level});
   }
-  if (out.passes_are_blocks) {
+  if (out.passes_are_blocks && o.order_known) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> met;
     std::vector<std::size_t> place;
     const auto cell = out.cells(out.factors.size());
