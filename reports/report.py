@@ -4,11 +4,20 @@
 report.py RESULT.h5 [--out FILE.html] [--csv DIR] [--page-only] [--force]
 """
 import argparse
+import os
 import pathlib
 import sys
+import traceback
+import warnings
 
 sys.dont_write_bytecode = True
-from gumshoe_report import csv_tables, output, page, read
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # whatever the environment says of paths
+os.environ["MPLBACKEND"] = "Agg"
+warnings.simplefilter("ignore")  # a figure without room for its axes is drawn all the same
+try:
+    from gumshoe_report import csv_tables, output, page, read
+except (ImportError, MemoryError) as problem:
+    sys.exit(f"error: the report generator does not start ({problem}).")
 
 
 def main():
@@ -37,6 +46,9 @@ def main():
     except (read.NotAResult, output.Refused) as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 2
+    except MemoryError:
+        print("error: the page needs more memory than there is.", file=sys.stderr)
+        return 2
     except OSError as problem:
         print(f"error: '{problem.filename or out}' cannot be written ({problem.strerror}).", file=sys.stderr)
         return 2
@@ -49,5 +61,15 @@ def main():
     return 0
 
 
+def fault(problem):
+    """Where an error arose that nobody foresaw, in a line."""
+    place = traceback.extract_tb(problem.__traceback__)[-1]
+    return f"{type(problem).__name__}: {problem}, {pathlib.Path(place.filename).name}, line {place.lineno}"
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except Exception as problem:
+        print(f"error: the page cannot be made ({fault(problem)}). This is a fault of the report.", file=sys.stderr)
+        sys.exit(2)

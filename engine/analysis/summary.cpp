@@ -281,7 +281,8 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
 
 void join_rounded(Summary& s, double largest) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  if (!std::isfinite(s.estimate)) return; // the values are too large for their mean
+  // The values are too large for their mean, or for their squares.
+  if (!std::isfinite(s.estimate) || !std::isfinite(s.standard_uncertainty) || !std::isfinite(largest)) return;
   if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::max(std::fabs(s.estimate), largest)))
     return;
   s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = 0;

@@ -12,7 +12,7 @@ struct Symbol {
   std::string si_unit; ///< used inside
   std::string meaning;
   double default_value = 0; ///< SI
-  Limits limits{-1e300, 1e300};
+  Limits limits{-1e150, 1e150}; ///< of larger numbers there is no square in double precision
 };
 
 } // namespace gumshoe

@@ -10,6 +10,7 @@
 #include "analysis/fields_json.h"
 #include "analysis/rounding.h"
 #include "analysis/weighted_mean.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "calibration/combined_scenario.h"
 #include "cli/command.h"
@@ -156,7 +157,7 @@ ExitCode combine(const CombineOptions& o) {
   for (const WeightedMean& m : all.rows) out["means"].push_back(to_json(m, results));
   for (const LeftOut& l : all.left_out)
     out["left_out"].push_back({{"output", l.output}, {"what", l.problem.what}, {"why", l.problem.why}});
-  std::cout << out.dump(2) << '\n';
+  std::cout << json_text(out) << '\n';
   return ExitCode::done;
 }
 

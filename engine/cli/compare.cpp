@@ -11,6 +11,7 @@
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/shards.h"
@@ -148,7 +149,7 @@ ExitCode compare_results(const CompareOptions& o) {
   for (const auto& a : all.rows) out["comparisons"].push_back(to_json(a));
   out["only_before"] = all.only_before;
   out["only_after"] = all.only_after;
-  std::cout << out.dump(2) << '\n';
+  std::cout << json_text(out) << '\n';
   return ExitCode::done;
 }
 
@@ -173,7 +174,7 @@ ExitCode compare_traces(const CompareOptions& o) {
         one[key] = number(units::from_si(t->rms.*member, before.rms.unit, before.rms.si_unit, units::Kind::difference));
       out[name] = std::move(one);
     }
-    std::cout << out.dump(2) << '\n';
+    std::cout << json_text(out) << '\n';
     return ExitCode::done;
   }
   const auto line = [&](const char* what, double R::*member) {

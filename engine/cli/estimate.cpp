@@ -9,6 +9,7 @@
 
 #include "analysis/fields_json.h"
 #include "analysis/rounding.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "calibration/estimated_scenario.h"
 #include "cli/command.h"
@@ -115,7 +116,7 @@ void print_json(const propagation::Experiment& e, const Estimate& r, const std::
            {"rows", rows_json(e, r)},
            {"notes", r.notes},
            {"scenario_out", written.empty() ? Json(nullptr) : Json(written)}};
-  std::cout << out.dump(2) << '\n';
+  std::cout << json_text(out) << '\n';
 }
 
 void print_text(const propagation::Experiment& e, const Estimate& r, const std::string& written) {

@@ -67,6 +67,7 @@ private:
 
   std::vector<Found> found_;
   std::vector<Problem> problems_;
+  std::vector<Problem> unreadable_; ///< files that are damaged; they do no harm where all shards are there without them
   store::Identity run_;
   std::uint64_t of_ = 0;
   struct Bad {
@@ -95,8 +96,7 @@ void Gathering::look_at(const std::string& file) {
     const char* remedy = std::filesystem::exists(file) ? "leave it out" : "check its name";
     problems_.push_back({{}, file + ": the file is no shard", error.problems().front().why, remedy});
   } catch (const InputError& error) {
-    const Problem& p = error.problems().front();
-    problems_.push_back({{}, p.what, p.why, "remove it, and make the shard again"});
+    unreadable_.push_back(error.problems().front());
   }
 }
 
@@ -181,6 +181,14 @@ void Gathering::ask_for_missing() {
 }
 
 ShardSet Gathering::set() {
+  const bool all_there = !found_.empty() && good_.size() == of_;
+  for (Problem& p : unreadable_) {
+    if (all_there)
+      std::cerr << fmt::format("{}{}: it is left out, as all shards are there without it\n", p.what,
+                               p.why.empty() ? "" : " (" + p.why + ")");
+    else
+      problems_.push_back({{}, p.what, p.why, "remove it, and make the shard again"});
+  }
   if (found_.empty()) {
     problems_.push_back({{}, "no shard can be read", "", "make shards with gumshoe run --shard"});
   } else if (run_.version != version) {

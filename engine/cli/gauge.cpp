@@ -13,6 +13,7 @@
 #include "analysis/analyse.h"
 #include "analysis/figures.h"
 #include "analysis/stopping.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "calibration/figures.h"
 #include "cli/command.h"
@@ -191,7 +192,7 @@ ExitCode gauge(const std::vector<std::string>& asked, int threads, bool json) {
     }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (json)
-    std::cout << all.dump(2) << '\n';
+    std::cout << json_text(all) << '\n';
   else
     std::cout << fmt::format("{} figures: {} PASS, {} DIFF, {} NOTE, in {:.1f} s\n", passed + different + noted, passed,
                              different, noted, seconds);

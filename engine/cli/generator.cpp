@@ -30,7 +30,8 @@ std::string generator_script() {
 ExitCode generate(const std::vector<std::string>& words) {
   const std::string script = generator_script();
   constexpr const char* python = "/usr/bin/python3";
-  std::vector<std::string> line{python, script}; // the whole path: by its name it would look for another's modules
+  // -E: whatever the environment says of modules and paths.
+  std::vector<std::string> line{python, "-E", script};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> argv;
   for (std::string& word : line) argv.push_back(word.data());

@@ -121,6 +121,6 @@ int main(int argc, char** argv) try {
   std::signal(SIGXFSZ, SIG_IGN); // a file-size limit becomes a write error with a message
   return command_line(argc, argv);
 } catch (const std::bad_alloc&) {
-  std::cerr << "error: out of memory. Use fewer samples.\n";
+  std::cerr << "error: out of memory. Use fewer samples, or smaller studies of sensitivity.\n";
   return static_cast<int>(gumshoe::ExitCode::bad_input);
 }

@@ -23,7 +23,9 @@ struct MergeOptions {
 };
 
 /// The scenario must be, with its data, the one that the shards were made of.
-scenario::Scenario scenario_of_shards(const store::Identity& shard, const std::string& other) {
+/// @param file one of them
+scenario::Scenario scenario_of_shards(const store::Identity& shard, const std::string& file, const std::string& other) {
+  if (other.empty()) require_scenario(shard, file, ", or name it with --scenario");
   const auto read = shard.command == choice_shard_command ? &scenario_of_choice : &scenario_of_run;
   scenario::Scenario s =
       read(other.empty() ? shard.scenario_file : other, RunRequest::of(shard.options), {.external = shard.external});
@@ -55,7 +57,7 @@ void require_same_design(const propagation::Experiment& experiment, const store:
 ExitCode merge(const MergeOptions& o) {
   const Begun begun;
   const ShardSet shards = gather_shards(o.files);
-  const scenario::Scenario s = scenario_of_shards(shards.identity, o.scenario);
+  const scenario::Scenario s = scenario_of_shards(shards.identity, shards.files.front(), o.scenario);
   if (shards.identity.command == choice_shard_command) {
     const std::string out = choice_output(o.out, s.file, "");
     return complete_choice(s, workers_of_choice(s, shards, o.threads), out, o.print.format, o.force);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/effects_markdown.h"
@@ -162,7 +163,7 @@ ExitCode show(const Cards& cards, const std::string& word, const std::string& na
         std::cout << fmt::format("{:<26} {}\n", card->name, card->title);
     } else if (card->name == name) {
       if (format == "json")
-        std::cout << to_json(*card).dump(2) << '\n';
+        std::cout << json_text(to_json(*card)) << '\n';
       else
         print(*card);
       return ExitCode::done;
@@ -172,7 +173,7 @@ ExitCode show(const Cards& cards, const std::string& word, const std::string& na
     const std::string meant = nearest(name, names);
     throw InputError("unknown " + word + " '" + name + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?");
   }
-  if (format == "json") std::cout << all.dump(2) << '\n';
+  if (format == "json") std::cout << json_text(all) << '\n';
   return ExitCode::done;
 }
 

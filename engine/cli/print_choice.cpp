@@ -9,6 +9,7 @@
 #include "analysis/fields_json.h"
 #include "analysis/rounding.h"
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "choice/choose.h"
 #include "choice/fields.h"
@@ -222,7 +223,7 @@ void print_json(const Result& r, const std::string& file) {
   out["skipped"]["reasons"] = r.skipped_why;
   out["notes"] = r.notes;
   out["file"] = file;
-  std::cout << out.dump(2) << '\n';
+  std::cout << json_text(out) << '\n';
 }
 
 } // namespace

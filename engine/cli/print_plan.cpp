@@ -10,6 +10,7 @@
 #include "analysis/fields_json.h"
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/planning/fields.h"
@@ -121,7 +122,7 @@ void print_json(const scenario::Scenario& s, const Planned& plan, const std::str
   out["opened"] = plan.opened;
   out["notes"] = plan.notes;
   out["file"] = file;
-  std::cout << out.dump(2) << '\n';
+  std::cout << json_text(out) << '\n';
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
 #include "base/csv.h"
+#include "base/json_text.h"
 #include "cli/print.h"
 #include "cli/print_studies.h"
 
@@ -105,7 +106,7 @@ void print_json(const Results& r, const std::string& file) {
     object["run"] = run;
     all.push_back(std::move(object));
   }
-  std::cout << all.dump(2) << '\n';
+  std::cout << json_text(all) << '\n';
 }
 
 void print_csv(const Results& r, bool budget) {

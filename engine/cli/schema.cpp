@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "cli/command.h"
 #include "scenario/schema.h"
 
@@ -53,7 +54,7 @@ void add_schema(CLI::App& app, Action& action) {
     action = [=] {
       const Json schema = Json::parse(scenario::schema(catalogue()));
       if (section->empty())
-        std::cout << schema.dump(2) << '\n';
+        std::cout << json_text(schema) << '\n';
       else
         print_options(schema, *section);
       return ExitCode::done;

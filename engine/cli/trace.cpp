@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/interrupt.h"
+#include "base/json_text.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/generator.h"
@@ -37,8 +38,7 @@ struct TraceOptions {
 /// The scenario with what the command line says otherwise.
 scenario::Scenario asked(const TraceOptions& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue(), {o.data});
-  if (o.draws)
-    s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19, "999"), 1'000'000));
+  if (o.draws) s.trace.draws = static_cast<int>(whole_number(*o.draws, "--draws", 19, "999", 1'000'000));
   if (o.seed) s.trace.seed = whole_number(*o.seed, "--seed", 0, "1");
   return s;
 }
@@ -90,7 +90,7 @@ std::string signed_verdict(const Rounds& rounds, const History& history, const s
                                  {"vetoed", r.vetoed}});
   if (history) verdict["history"] = history.json();
   verdict["made_by"] = store::signature(origin);
-  return verdict.dump(2) + '\n';
+  return json_text(verdict) + '\n';
 }
 
 ExitCode trace(const TraceOptions& o) {

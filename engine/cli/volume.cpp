@@ -8,6 +8,7 @@
 
 #include "analysis/fields_json.h"
 #include "analysis/rounding.h"
+#include "base/json_text.h"
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "scenario/volume.h"
@@ -38,7 +39,7 @@ void print_json(const analysis::VolumeMap& map, const std::string& file) {
   out["causes"] = list(analysis::volume_share_fields, map.shares);
   out["notes"] = map.notes;
   out["file"] = file;
-  std::cout << out.dump(2) << '\n';
+  std::cout << json_text(out) << '\n';
 }
 
 void print_text(const analysis::VolumeMap& map, const std::string& file) {

@@ -94,8 +94,14 @@ ForwardModel forward_model_of(const scenario::Scenario& s, const models::Model& 
   return ForwardModel(model, acting, evaluation, std::move(conditions), std::move(stated));
 }
 
-/// The samples of outputs are datasets of their names; next to them the result file has these.
+/// The samples of outputs are datasets of their names; next to them the result file has these. Its dimensions hold
+/// references to all of them, for which HDF5 has 64 KiB.
 void refuse_names_of_datasets(const scenario::Scenario& s, std::span<const VariableCard> outputs) {
+  constexpr std::size_t most = 4000;
+  if (outputs.size() > most)
+    throw InputError({{find_line(s, "[model]"), fmt::format("model: {} measurands are too many", outputs.size()),
+                       fmt::format("a result file holds at most {}", most),
+                       "divide the scenario, or read one measurand several times"}});
   constexpr std::array taken{"status", "sample", "reading"};
   for (const VariableCard& v : outputs)
     if (std::ranges::find(taken, v.name) != taken.end())

@@ -95,7 +95,8 @@ Printed read_printed(Table table, const StudyScope& scope, Context& context) {
 Options<SensitivityOptions> sensitivity_options() {
   using Studies = SensitivityOptions;
   const auto size = [](const char* key, std::uint64_t Studies::*member, const char* meaning) {
-    return option::whole(key, member, 0, option::largest_whole, meaning);
+    constexpr std::int64_t largest = std::int64_t{1} << 30; // the results of larger ones fit into no memory
+    return option::whole(key, member, 0, largest, meaning);
   };
   return {
       size("sobol", &Studies::sobol, "base size of the pick-freeze design; 0: no Sobol' indices"),

@@ -138,6 +138,13 @@ void guess_roles(RecognisedData& data) {
   const auto has = [&](ColumnRole role) {
     return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
   };
+  // Numbers but for a cell or two: likelier what was read than a column that was set.
+  const auto misprinted = [&](const RecognisedColumn& c) {
+    const bool may_be_read = c.role == ColumnRole::reading || (c.role == ColumnRole::other && c.clock.empty());
+    std::string rest;
+    return may_be_read && !c.number &&
+           (cell_with_unit(data, c) || (!unit_in(c.name, rest).empty() && !cells_that_are_no_number(data, c).empty()));
+  };
   const auto take = [&](auto first, auto end, ColumnRole role, const char* why) {
     const auto fitting = [&](const RecognisedColumn& c) {
       return c.number && c.role == ColumnRole::other && c.basis != Basis::user && !counts_rows(c) && !names_parts(c) &&
@@ -160,8 +167,8 @@ void guess_roles(RecognisedData& data) {
     }
     auto one = std::find_if(first, end, likely);
     // A force, a temperature or a time to failure may be what was read, whatever its name.
-    if (role == ColumnRole::reading &&
-        std::ranges::none_of(columns, [&](const auto& c) { return cell_with_unit(data, c); }))
+    if (one == end && role == ColumnRole::reading && std::ranges::any_of(columns, misprinted)) return;
+    if (role == ColumnRole::reading)
       for (const ColumnRole named : {ColumnRole::position, ColumnRole::time, ColumnRole::temperature})
         if (one == end)
           one = std::find_if(first, end, [&](const RecognisedColumn& c) { return was_read(data, c, named); });
@@ -193,7 +200,7 @@ void guess_roles(RecognisedData& data) {
     if (c.role == ColumnRole::position && std::exchange(known, true) && c.basis == Basis::name) c.leave();
   if (!has(ColumnRole::reading))
     take(columns.rbegin(), columns.rend(), ColumnRole::reading, "as the last column of numbers");
-  if (!has(ColumnRole::reading) && has(ColumnRole::position)) {
+  if (!has(ColumnRole::reading) && has(ColumnRole::position) && std::ranges::none_of(columns, misprinted)) {
     // A force may be what was set or what was read.
     const auto last =
         std::ranges::find(columns.rbegin(), columns.rend(), ColumnRole::position, &RecognisedColumn::role);
@@ -253,6 +260,22 @@ bool names_parts(const RecognisedColumn& c) {
   const auto words = words_of(c.name);
   const bool none = c.unit == "?" || (c.unit == "1" && c.unit_told);
   return none && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
+}
+
+std::vector<const CsvCell*> cells_that_are_no_number(const RecognisedData& data, const RecognisedColumn& c) {
+  if (c.number) return {};
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  std::vector<const CsvCell*> odd;
+  std::size_t numbers = 0;
+  for (const auto& row : data.csv.rows) {
+    const CsvCell& cell = row[column];
+    if (says_missing(cell.text)) continue;
+    if (is_number(data.csv, cell, data.decimal))
+      ++numbers;
+    else
+      odd.push_back(&cell);
+  }
+  return numbers > odd.size() ? odd : std::vector<const CsvCell*>{};
 }
 
 const CsvCell* cell_with_unit(const RecognisedData& data, const RecognisedColumn& c) {

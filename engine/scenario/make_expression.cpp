@@ -42,8 +42,12 @@ formula::Stated read_formula(const Node& node, const std::string& path, bool wit
 std::vector<formula::Stated> read_formulas(Table& model, const char* key, bool with_unit) {
   std::vector<formula::Stated> out;
   if (auto table = model.table(key))
-    for (const Member& m : table->members())
+    for (const Member& m : table->members()) {
+      if (m.key.find('.') != m.key.npos) // else what follows it would be the name
+        model.problems().add(m, fmt::format("{}: '{}' cannot be the name of a formula", table->path(m.key), m.key),
+                             "use letters, digits and _, with no digit first", "");
       out.push_back(read_formula(m.value, table->path(m.key), with_unit, model.problems()));
+    }
   return out;
 }
 

@@ -236,13 +236,16 @@ std::optional<std::int64_t> Table::integer(const std::string& key, std::int64_t 
   const Node* node = find(key);
   const auto value = node ? read_number(*node, path(key), *problems_) : std::nullopt;
   if (!value) return std::nullopt;
-  if (std::floor(*value) != *value || std::abs(*value) > 9e15) {
+  if (std::floor(*value) != *value) {
     refuse_key(key, fmt::format("{} is not a whole number", *value));
     return std::nullopt;
   }
-  const auto whole = static_cast<std::int64_t>(*value);
-  if (whole < low || whole > high) {
-    refuse_key(key, fmt::format("{} must lie between {} and {}", whole, low, high));
+  constexpr double exact = 9e15; // larger ones are not known to the last digit
+  const bool large = std::abs(*value) > exact;
+  const std::int64_t whole = large ? 0 : static_cast<std::int64_t>(*value);
+  if (large || whole < low || whole > high) {
+    refuse_key(key, fmt::format("{} must lie between {} and {}",
+                                large ? fmt::format("{:g}", *value) : std::to_string(whole), low, high));
     return std::nullopt;
   }
   return whole;

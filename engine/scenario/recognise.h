@@ -57,6 +57,9 @@ bool is_number(const Csv& csv, const CsvCell& cell, char decimal);
 /// it.
 void guess_roles(RecognisedData& data);
 
+/// The cells that keep a column, of which most are numbers, from being one of numbers: "OL", "1 000".
+std::vector<const CsvCell*> cells_that_are_no_number(const RecognisedData& data, const RecognisedColumn& column);
+
 /// The first cell of a column all of whose texts are a number and its unit, "25.0004 mm"; null: it is none such.
 const CsvCell* cell_with_unit(const RecognisedData& data, const RecognisedColumn& column);
 

@@ -117,26 +117,9 @@ std::string line_of(const Csv& csv, const CsvCell& cell) {
   return fmt::format("{}line {}", csv.parts.empty() ? "" : csv.at(cell).file + ", ", cell.line);
 }
 
-/// The cells that keep a column, of which most are numbers, from being one of numbers; empty if there are none.
-std::vector<const CsvCell*> odd_cells_of(const RecognisedData& data, const RecognisedColumn& c) {
-  if (c.number) return {};
-  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-  std::vector<const CsvCell*> odd;
-  std::size_t numbers = 0;
-  for (const auto& row : data.csv.rows) {
-    const CsvCell& cell = row[column];
-    if (says_missing(cell.text)) continue;
-    if (is_number(data.csv, cell, data.decimal))
-      ++numbers;
-    else
-      odd.push_back(&cell);
-  }
-  return numbers > odd.size() ? odd : std::vector<const CsvCell*>{};
-}
-
-/// The same in words.
+/// The cells that keep a column from being one of numbers, in words; empty if there are none.
 std::string odd_cells(const RecognisedData& data, const RecognisedColumn& c) {
-  const std::vector<const CsvCell*> odd = odd_cells_of(data, c);
+  const std::vector<const CsvCell*> odd = cells_that_are_no_number(data, c);
   if (odd.empty()) return {};
   std::string out = fmt::format("'{}' in {} is not a number", odd[0]->text, line_of(data.csv, *odd[0]));
   if (odd.size() > 1) out += fmt::format(", nor are {} more of its cells", odd.size() - 1);
@@ -329,7 +312,7 @@ void require_readable(const RecognisedData& data) {
       throw InputError(
           {{data.csv.at(*cell), fmt::format("the cells of the column '{}' are no numbers: '{}'", c.name, cell->text),
             "they hold their unit", "write numbers alone, and the unit in the column's name, as size (mm)"}});
-    if (const auto odd = odd_cells_of(data, c); !odd.empty() && c.clock.empty() && c.words.empty())
+    if (const auto odd = cells_that_are_no_number(data, c); !odd.empty() && c.clock.empty() && c.words.empty())
       throw InputError({{data.csv.at(*odd[0]),
                          fmt::format("the column '{}' has a cell that is no number: '{}'", c.name, odd[0]->text),
                          odd.size() == 1 ? "" : fmt::format("{} more of its cells are none", odd.size() - 1),

@@ -83,6 +83,7 @@ Claim claim_result(const std::string& path, const Origin& origin) {
     const Identity& i = there.identity;
     if (i.scenario_place != origin.place && i.scenario_hash != origin.scenario_hash)
       refuse("it is the result of another scenario, " + i.scenario_file);
+    if (i.shard != origin.shard) refuse(fmt::format("it holds shard {}, and not {}", i.shard, origin.shard));
   });
   return claim;
 }

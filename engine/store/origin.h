@@ -13,6 +13,7 @@ struct Origin {
   std::string scenario_file, scenario_hash;
   std::string place;  ///< hash of the scenario's absolute path
   bool force = false; ///< replaces whatever file is there
+  std::string shard = {}; ///< "3/16": a part of a run
 };
 
 Origin origin_of(const scenario::Scenario& scenario, const std::string& command, bool force = false);

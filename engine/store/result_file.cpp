@@ -202,8 +202,8 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
                        bool force) {
   const Lock lock(hdf5::library());
   survive_size_limit();
-  claim_ = claim_result(
-      path, {identity.command, identity.scenario_file, identity.scenario_hash, identity.scenario_place, force});
+  claim_ = claim_result(path, {identity.command, identity.scenario_file, identity.scenario_hash,
+                               identity.scenario_place, force, identity.shard});
   naming(path, [&] {
     impl_ = std::make_unique<Impl>(claim_, identity, outputs, reading_labels);
     if (!resumed()) impl_->begin();

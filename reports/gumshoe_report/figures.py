@@ -134,10 +134,11 @@ def distribution(output, budget, p, name):
     limits = view(output, to_axis, budget)
     rows = [("symmetric", to_axis([output.symmetric_low, output.symmetric_high]), BLUE, "-"),
             ("shortest", to_axis([output.shortest_low, output.shortest_high]), ORANGE, "-")]
-    if budget is not None and budget.applicable and budget.combined_standard_uncertainty > 0:
-        u = budget.combined_standard_uncertainty
+    u = budget.combined_standard_uncertainty if budget is not None and budget.applicable else 0
+    spread = float(to_axis(budget.estimate + u) - to_axis(budget.estimate)) if u > 0 else 0
+    if spread > 0:  # u may be smaller than what two numbers of double precision differ by
         x = np.linspace(*limits, 400)
-        centre, spread = float(to_axis(budget.estimate)), float(to_axis(budget.estimate + u) - to_axis(budget.estimate))
+        centre = float(to_axis(budget.estimate))
         top.plot(x, np.exp(-0.5 * ((x - centre) / spread) ** 2) / (spread * math.sqrt(2 * math.pi)), color=INK,
                  linewidth=1.1, linestyle=(0, (4, 2)), label="GUM framework: normal, u_c")
         ends = budget.estimate + np.array([-1, 1]) * budget.expanded_uncertainty

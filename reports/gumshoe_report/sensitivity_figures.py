@@ -94,7 +94,7 @@ def side_by_side(budget, sobol, shapley, name):
         order = names  # one bar for one quantity would hide its name and save nothing
     left_out = [n for n in names if n not in order]
     rest = [contributions[n] for n in left_out if n in contributions]
-    has_budget = any(c.differentiable and c.contribution > 0 for c in contributions.values())
+    has_budget = any(c.differentiable and 0 < c.contribution < math.inf for c in contributions.values())
     panels = has_budget + bool(rows)
     if panels == 0:
         return ""

@@ -77,6 +77,11 @@ class Rows(Starter):
                 said = self.new("--from", "log.csv", "--force", *more, code=2)
                 self.assertIn(f"log.csv:9:4: error: the column 'size_mm' has a cell that is no number: '{cell}'. Leave such cells empty", said)
 
+    def test_one_bad_cell_makes_no_position_the_reading(self):
+        for cell in ("1 000", "6D-3", "0x10"):
+            lines = ["x (mm),y (mm),temp_c"] + [f"{10 * i},{cell if i == 3 else i * 7 % 11 / 1000},{20 + i * 3 % 7 / 10}" for i in range(12)]
+            self.assertIn(f"log.csv:5:4: error: the column 'y (mm)' has a cell that is no number: '{cell}'", self.told(lines, code=2))
+
     def test_what_was_read_may_have_the_name_of_a_condition(self):
         """A force that scatters next to settings; a time to failure; a coordinate to the right of its error."""
         for name in ("force [N]", "angle (deg)", "time_to_fail (s)", "T (degC)"):

@@ -1,6 +1,7 @@
 #include "tracing/findings/verdict_json.h"
 
 #include "analysis/fields_json.h"
+#include "base/json_text.h"
 #include "base/units.h"
 #include "tracing/findings/trace_fields.h"
 
@@ -109,7 +110,7 @@ std::string verdict_json(const Trace& t) {
   out["noise"] = json(noise_fields, t.noise);
   out["statements"] = t.statements;
   out["plain"] = t.plain;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace); // labels need not be UTF-8
+  return json_text(out);
 }
 
 } // namespace gumshoe::tracing
