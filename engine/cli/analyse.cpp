@@ -15,6 +15,7 @@
 #include "cli/recomputed.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
+#include "store/earlier_result.h"
 #include "store/origin.h"
 #include "store/result_file.h"
 #include "store/stored_samples.h"
@@ -38,9 +39,7 @@ void refuse_unusable(const store::Stored& stored, const std::string& file) {
   if (!stored.identity.store_samples)
     throw InputError(file + ": the file holds no samples", "its scenario has store_samples = false",
                      "run again with store_samples = true");
-  if (!stored.complete)
-    throw InputError(file + ": the run is not finished", "it was interrupted",
-                     "run the same command again to resume it");
+  store::require_complete(stored, file);
   if (stored.identity.design_hash.empty())
     throw InputError(file + ": the design of its samples is not recorded", "an older version wrote it", "run again");
 }

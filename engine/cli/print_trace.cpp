@@ -183,7 +183,8 @@ void print_limits(const std::vector<DetectionLimit>& limits) {
 void print_noise(const Noise& n, const Rms& r) {
   const RmsFigures figures(r);
   std::string text = n.declared ? n.scale == 1 ? "as declared" : fmt::format("{:.3g} times as declared", n.scale)
-                                : figures.with_unit(n.scale) + " of a reading, from the residuals";
+                     : std::isfinite(n.scale) ? figures.with_unit(n.scale) + " of a reading, from the residuals"
+                                              : "none shows in the residuals";
   if (n.correlation != 0) text += fmt::format(", correlation from reading to reading {:.2f}", n.correlation);
   if (!n.scatter.empty()) text += fmt::format(", scatter by {} {}", n.scatter, figures.with_unit(n.scatter_u));
   if (n.outliers > 0) text += fmt::format(", {} outlier{} with reduced weight", n.outliers, n.outliers == 1 ? "" : "s");

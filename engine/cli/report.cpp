@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "cli/generator.h"
 #include "cli/shards.h"
-#include "store/result_file.h"
+#include "store/earlier_result.h"
 
 namespace gumshoe::cli {
 
@@ -26,9 +26,7 @@ void add_report(CLI::App& app, Action& action) {
       const store::Stored stored = store::open_result(o->file);
       inputs::note(stored.identity.scenario_file); // not read, but the page must not replace what it reports on
       refuse_shard(stored.identity, o->file);
-      if (!stored.complete)
-        throw InputError(o->file + ": the run is not finished", "it was interrupted",
-                         "run the same command again to resume it");
+      store::require_complete(stored, o->file);
       std::vector<std::string> words{o->file};
       store::require_sound_samples(o->file);
       const std::filesystem::path page =

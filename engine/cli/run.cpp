@@ -14,6 +14,7 @@
 #include "cli/requested_run.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
+#include "store/earlier_result.h"
 
 namespace gumshoe::cli {
 
@@ -143,7 +144,8 @@ ExitCode run(const RunOptions& o) {
   });
   if (!whole) {
     line.clear();
-    std::cerr << fmt::format("interrupted after {}. Repeat the command to resume.\n", progress_of(file, identity));
+    std::cerr << fmt::format("interrupted after {}{}. Repeat the command to resume.\n", progress_of(file, identity),
+                             store::said_of_earlier(out));
     return ExitCode::interrupted;
   }
   if (!part) return complete_run(experiment, file, stopping, begun, out, workers, o.print, line);

@@ -11,6 +11,7 @@
 #include "analysis/studies.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "store/earlier_result.h"
 #include "store/stored_samples.h"
 
 namespace gumshoe::cli {
@@ -154,9 +155,7 @@ void require_scenario(const store::Identity& identity, const std::string& file, 
 store::Identity require_finished(const std::string& file) {
   store::Stored stored = store::open_result(file);
   refuse_shard(stored.identity, file);
-  if (!stored.complete)
-    throw InputError(file + ": the run is not finished", "it was interrupted",
-                     "run the same command again to resume it");
+  store::require_complete(stored, file);
   return std::move(stored.identity);
 }
 

@@ -9,6 +9,7 @@
 
 #include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
+#include "store/earlier_result.h"
 #include "store/stored_results.h"
 #include "store/stored_samples.h"
 
@@ -21,9 +22,7 @@ void require_result(const Stored& stored, const std::string& file) {
   if (!stored.identity.shard.empty())
     throw InputError(fmt::format("{}: it is shard {} of a run", file, stored.identity.shard), "",
                      "join the shards by gumshoe merge");
-  if (!stored.complete)
-    throw InputError(file + ": the run is not finished", "it was interrupted",
-                     "run the same command again to resume it");
+  require_complete(stored, file);
   if (!stored.identity.has_outputs())
     throw InputError(file + ": holds no outputs", fmt::format("gumshoe {} wrote it", stored.identity.command),
                      "name a result of gumshoe run");

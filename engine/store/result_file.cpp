@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "propagation/memory_store.h"
+#include "store/earlier_result.h"
 #include "store/identity.h"
 #include "store/origin.h"
 #include "store/place.h"
@@ -146,8 +147,14 @@ void ResultFile::Impl::create(Impl* before, const analysis::Results* results, in
     file.write(&done, sizeof done, record.places.at("samples_done").offset);
   }
   finished = results != nullptr;
+  std::optional<EarlierResult> earlier;
+  if (!finished) earlier.emplace(claim.target());
   draft.publish(before &&
                 worth_waiting(keeps ? bytes_of(done) : 0, Clock::now() - begun)); // nothing is in it otherwise
+  if (earlier)
+    earlier->settle();
+  else
+    EarlierResult::remove(claim.target());
 }
 
 bool ResultFile::Impl::resume() {

@@ -1,13 +1,16 @@
-"""Requests at the edge: shards mixed up, sizes that nothing holds, names that are no UTF-8, numbers whose squares are none.
+"""Requests at the edge: a finished result replaced by one that is interrupted, shards mixed up, sizes that nothing holds, names that are no UTF-8, numbers whose squares are none.
 
 usage: odd_requests_test.py path/to/gumshoe [unittest options]
 """
 import json
 import os
 import shutil
+import signal
+import subprocess
+import time
 import unittest
 
-from program import InFolder, gumshoe
+from program import GUMSHOE, InFolder, gumshoe
 
 FORMULA = """schema = 1
 [model]
@@ -33,6 +36,25 @@ class OddRequests(InFolder):
 
     def shard(self, part, out):
         return ("run", self.scenario(), "--shard", part, "-o", out)
+
+    def test_an_interrupted_run_loses_no_finished_result(self):
+        slow = " + ".join(f"sin({k} * a)" for k in range(1, 201)) # no run of ten million ends before its signal
+        (self.folder / "s.toml").write_text(FORMULA.format(measurand="y", a="{ value = 1, u = 0.1 }", samples=2000).replace('"a"', f'"{slow}"'))
+        self.told("run", "s.toml", "-o", "a.h5", code=0)
+        finished, kept = (self.folder / "a.h5").read_bytes(), self.folder / "a.h5.gumshoe-earlier"
+        again = subprocess.Popen([GUMSHOE, "run", "s.toml", "--samples", "1e7", "-o", "a.h5"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(again.kill)
+        deadline = time.monotonic() + 60
+        while not kept.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        time.sleep(0.2)
+        again.send_signal(signal.SIGINT)
+        self.assertIn("; the finished result before it is kept as 'a.h5.gumshoe-earlier'. Repeat the command to resume.", again.communicate()[1])
+        self.assertEqual(kept.read_bytes(), finished)
+        self.assertIn("(it was interrupted; the finished result before it is kept as 'a.h5.gumshoe-earlier')", self.told("report", "a.h5"))
+        self.told("run", "s.toml", "-o", "a.h5", code=0)
+        self.assertFalse(kept.exists())
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["a.h5", "s.toml"])
 
     def test_one_shard_does_not_replace_another(self):
         self.told(*self.shard("2/2", "a.h5"), code=0)

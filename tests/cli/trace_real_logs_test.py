@@ -64,6 +64,16 @@ class RealLogs(InOneFolder):
             self.assertRegex(said, "It is that reading alone: check it|Check it")
             self.assertNotIn("No candidate explains it: noise alone gives as much", said)
 
+    def test_readings_without_noise_have_no_figure_that_is_none(self):
+        """What was set and taken for a reading: three machines with 1, 2 and 5 um, six times two each."""
+        found = self.trace("machine,day,level_um", [f"{m},{day},{level}" for day in range(1, 7) for m, level in zip("ABC", (1, 2, 5)) for _ in range(2)])
+        self.assertEqual([f["depends_on"] for f in found["findings"]], [["machine"]])
+        self.assertIn("no noise shows in these readings", " ".join(found["plain"]))
+        run = gumshoe("trace", "log.toml", "--draws", "199", "--force", cwd=self.folder)
+        self.assertNotRegex(run.stdout, r"\bnan\b")
+        self.assertIn("noise: none shows in the residuals", run.stdout)
+        self.assertIn("differ by up to 4 um, without an uncertainty", run.stdout)
+
     def test_an_operator_with_more_noise_in_a_sorted_table(self):
         """Eight parts, four operators, three readings of each; Cem has four times the noise of the others. Blocks that are dealt in turn
         had one half of the operators each."""

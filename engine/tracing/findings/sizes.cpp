@@ -20,6 +20,8 @@ std::string shown_size(double si, const std::string& unit, const std::string& si
 std::string with_u(double si, double u, const std::string& unit, const std::string& si_unit, std::string shown) {
   shown = shown.empty() ? units::suffix(unit) : " " + shown;
   const auto number = [&](double x) { return units::from_si(x, unit, si_unit, units::Kind::difference); };
+  if (!(u > 0 && std::isfinite(u))) // readings without noise tell the size, and no uncertainty
+    return fmt::format("{:.4g}{}, without an uncertainty", number(si), shown);
   const int decimals = analysis::decimals_for(number(u));
   return fmt::format("{}{}, u = {}{}", analysis::fixed(number(si), decimals), shown,
                      analysis::fixed(number(u), decimals), shown);

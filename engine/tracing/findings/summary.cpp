@@ -50,12 +50,15 @@ std::string what_to_do(const std::vector<Finding>& found, const Rms& r, bool unc
   if (f.kind == Kind::equivalence_class && !f.suggestion.empty()) return "To distinguish them, " + f.suggestion + ".";
   if (std::isfinite(r.holdout_after)) {
     const bool bad = r.holdout_after_winsorised < r.holdout_after;
-    return fmt::format("On held-out readings the error {} {}{}; noise alone gives {}.{}",
+    const std::string noise = std::isfinite(r.holdout_noise)
+                                  ? "noise alone gives " + shown_rms(r.holdout_noise, r)
+                                  : "no noise shows in these readings, as of what was set and not measured";
+    return fmt::format("On held-out readings the error {} {}{}; {}.{}",
                        change(r.holdout_before_winsorised, r.holdout_after_winsorised, r), with,
                        bad ? fmt::format(" (bad readings cut; the worst, {}, is off by {})", r.worst_point,
                                          shown_rms(r.worst_point_after, r))
                            : "",
-                       shown_rms(r.holdout_noise, r),
+                       noise,
                        unconfirmed
                            ? fmt::format(" The held-out readings neither confirm nor reject {}: measure another "
                                          "block before you correct for anything.",
