@@ -121,20 +121,23 @@ bool outliers_enlarge(const Trace& t) {
   return !t.outliers.empty() && without <= t.rms.noise_high * t.rms.noise_high;
 }
 
-/// Held-out readings that are off by four times the noise, where without them the error is as noise gives it; 0: none,
-/// or more is left.
+/// Held-out readings that are off by four times the noise, and by three times as much as the others, where without them
+/// the error is as noise gives it; 0: none, or more is left.
 std::size_t far_held_out(const Trace& t) {
-  constexpr double far = 4;
+  constexpr double far = 4, of_others = 3;
   std::size_t count = 0, others = 0;
-  double squares = 0;
+  double squares = 0, nearest = HUGE_VAL;
   for (const Row& row : t.rows) {
     if (!row.held_out || row.indication > 0 || !std::isfinite(row.after)) continue;
-    const bool is_far = std::fabs(row.after) > far * t.rms.noise;
-    is_far ? ++count : ++others;
-    if (!is_far) squares += row.after * row.after;
+    const double size = std::fabs(row.after);
+    if (size > far * t.rms.noise)
+      ++count, nearest = std::min(nearest, size);
+    else
+      ++others, squares += size * size;
   }
-  const double most = t.rms.holdout_noise_high * t.rms.holdout_noise_high * static_cast<double>(others);
-  return others > count && squares <= most ? count : 0;
+  if (others <= count) return 0;
+  const double rms = std::sqrt(squares / static_cast<double>(others));
+  return rms <= t.rms.holdout_noise_high && nearest > of_others * rms ? count : 0;
 }
 
 /// A large part of the noise that the fit takes from group to group, and that may be chance.
