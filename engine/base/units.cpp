@@ -173,8 +173,9 @@ InputError unknown(const std::string& unit, const std::string& remedy) {
   const std::string meant = unit.empty() ? "" : other_case(unit), instead = instead_of(unit);
   return InputError(fmt::format("'{}' is not a unit", unit), "",
                     !instead.empty() ? instead
-                    : meant.empty()  ? remedy
-                                     : "did you mean '" + meant + "'?");
+                    : !meant.empty() ? "did you mean '" + meant + "'?"
+                    : remedy.empty() ? "write one such as mm, um/m, N or degC"
+                                     : remedy);
 }
 
 struct Pair {

@@ -70,7 +70,8 @@ Asked asked(const std::string& name) {
   std::vector<std::string> names;
   for (const auto* m : models::catalogue()) names.emplace_back(m->card->name);
   const std::string meant = nearest(name, names);
-  throw InputError("unknown model '" + name + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?");
+  throw InputError("unknown model '" + name + "'", "",
+                   meant.empty() ? "see what gumshoe models lists" : "did you mean '" + meant + "'?");
 }
 
 } // namespace

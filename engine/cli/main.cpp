@@ -2,11 +2,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <system_error>
 
 #include <unistd.h>
+
+#include <fmt/format.h>
 
 #include "base/interrupt.h"
 #include "base/memory.h"
@@ -38,6 +41,8 @@ gumshoe::Problem foreign_problem(const std::exception& error) {
             "no further thread can be started",
             "a limit of processes or memory is reached",
             "use fewer threads (--threads 1 needs no further one), or raise the limit"};
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return {{}, fmt::format("'{}': {}", file->path1().string(), file->code().message()), "", ""};
   return {{}, what, "", ""};
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/units.h"
 #include "formula/finite.h"
@@ -24,7 +25,10 @@ std::size_t chosen_evaluation(const ModelCard& card, const std::string& evaluati
   for (const EvaluationCard& e : card.evaluations) names.emplace_back(e.name);
   const std::string meant = nearest(evaluation, names);
   problems.push_back(
-      {{}, "unknown evaluation '" + evaluation + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?"});
+      {{},
+       "unknown evaluation '" + evaluation + "'",
+       "",
+       meant.empty() ? fmt::format("use one of {}", fmt::join(names, ", ")) : "did you mean '" + meant + "'?"});
   return chosen;
 }
 

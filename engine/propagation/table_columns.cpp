@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/units.h"
 
@@ -73,6 +74,7 @@ void read_cells(Slot& slot, const std::string& unit, const Csv& table, char deci
     } catch (const InputError& error) {
       Problem p = error.problems().front();
       if (p.where.file.empty()) p.where = table.at(cell);
+      p.what = slot.name + ": " + p.what;
       if (!p.remedy.empty())
         p.remedy = fmt::format("add --decimal \"{}\"", decimal == ',' ? '.' : ','); // no key of a scenario
       out.problems.push_back(p);
@@ -89,8 +91,13 @@ void read_column(std::size_t c, const Csv& table, char decimal, TableColumns& ou
     std::vector<std::string> names;
     for (const Slot& s : out.slots) names.push_back(s.name);
     const std::string meant = nearest(name, names);
+    constexpr std::size_t shown = 12;
+    const std::size_t more = names.size() - std::min(shown, names.size());
+    names.resize(names.size() - more);
     out.problems.push_back({where, "unknown column '" + name.substr(0, 60) + "'", "",
-                            meant.empty() ? "" : "did you mean '" + meant + "'?"});
+                            !meant.empty() ? "did you mean '" + meant + "'?"
+                                           : fmt::format("use one of {}{}", fmt::join(names, ", "),
+                                                         more > 0 ? fmt::format(" and {} more", more) : "")});
     return;
   }
   if (slot->given_column >= 0) {
@@ -98,6 +105,11 @@ void read_column(std::size_t c, const Csv& table, char decimal, TableColumns& ou
     return;
   }
   slot->given_column = static_cast<int>(c);
+  if (name == table.header[c].text && slot->si_unit != "1") {
+    out.problems.push_back({where, fmt::format("the column '{}' states no unit", name), "",
+                            fmt::format("write it behind the name: {} ({})", name, slot->unit)});
+    return;
+  }
   try {
     units::to_si(1, unit, slot->si_unit);
   } catch (const InputError& error) {

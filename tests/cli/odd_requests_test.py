@@ -106,6 +106,19 @@ class OddRequests(InFolder):
         self.assertIn("the values are too large for it in double precision", run.stdout)
         self.assertNotIn("the same in every sample", run.stdout)
 
+    def test_tables_of_points_that_say_too_little(self):
+        for text, said in (("rod_length,beam_yaw (deg)\n100,0\n", "p.csv:1:1: error: the column 'rod_length' states no unit. Write it behind the name: rod_length (mm)."),
+                           ("colour\n1\n", "p.csv:1:1: error: unknown column 'colour'. Use one of rod_radius, fillet_radius, "),
+                           ("rod_length (mm)\nnan\n", "p.csv:2:1: error: rod_length: 'nan' is not a number")):
+            (self.folder / "p.csv").write_text(text)
+            self.assertIn(said, self.told("evaluate", "rod_gauging", "--table", "p.csv"))
+        self.assertIn("unknown evaluation 'better'. Use one of full, conventional.",
+                      self.told("evaluate", "rod_gauging", "--table", "p.csv", "--evaluation", "better"))
+        self.assertIn("unknown model 'nothing'. See what gumshoe models lists.", self.told("evaluate", "nothing", "--table", "p.csv"))
+        self.assertIn("'mX' is not a unit. Write one such as mm", self.told("check", self.scenario(a='{ value = "1 mX", u = 1 }')))
+        os.symlink("loop", self.folder / "loop")
+        self.assertIn("error: 'loop': Too many levels of symbolic links", self.told("report", "loop"))
+
     def test_names_that_are_no_utf8(self):
         folder = os.fsencode(self.folder) + b"/b\xff"
         os.mkdir(folder)
