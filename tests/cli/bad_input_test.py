@@ -137,7 +137,7 @@ TABLES = {
     "column repeated in another unit": ("rod_radius (mm),rod_radius (um)\n5,5000\n", 1, ["rod_radius", "twice"]),
     "unknown unit": ("rod_radius (parsnip)\n5\n", 1, ["parsnip"]),
     "wrong dimension": ("rod_radius (N)\n5\n", 1, ["'N'", "length"]),
-    "no unit": ("rod_radius\n5\n", 1, ["rod_radius", "length"]),
+    "no unit": ("rod_radius\n5\n", 1, ["rod_radius", "states no unit", "rod_radius (mm)"]),
     "row too short": ("rod_radius (mm),beam_yaw (deg)\n5,0\n5\n", 3, ["1 cell", "2"]),
     "row too long": ("rod_radius (mm)\n5,6\n", 2, ["2 cells"]),
     "quote not closed": ('"rod_radius (mm)\n5\n', 1, ["quote"]),

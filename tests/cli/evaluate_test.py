@@ -63,7 +63,7 @@ class Evaluate(InFolder):
         text = "beam_pitch (deg);rod_radius (mm)\n0,30;5,5\n"
         refused = self.run_text(text)
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("points.csv:2:1: error: '0,30' is not a number (the decimal sign must be a point). Add --decimal \",\".", refused.stderr)
+        self.assertIn("points.csv:2:1: error: beam_pitch: '0,30' is not a number (the decimal sign must be a point). Add --decimal \",\".", refused.stderr)
         run = self.run_text(text, "--decimal", ",")
         self.assertEqual(run.returncode, 0, run.stderr)
         same = self.run_text(text.replace(",", "."))
