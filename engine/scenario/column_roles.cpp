@@ -166,8 +166,8 @@ void guess_roles(RecognisedData& data) {
       }
     }
     auto one = std::find_if(first, end, likely);
-    // A force, a temperature or a time to failure may be what was read, whatever its name.
     if (one == end && role == ColumnRole::reading && std::ranges::any_of(columns, misprinted)) return;
+    // A force, a temperature or a time to failure may be what was read, whatever its name.
     if (role == ColumnRole::reading)
       for (const ColumnRole named : {ColumnRole::position, ColumnRole::time, ColumnRole::temperature})
         if (one == end)

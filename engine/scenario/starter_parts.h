@@ -29,6 +29,8 @@ bool is_named(const RecognisedColumn& c, std::string_view name);
 /// empty cell in one are left out; with many of them it is none. One that is another under a second name is none.
 /// @param used names of columns that are read as numbers
 NamedColumns labels_of(const RecognisedData& data, const std::set<std::string>& used = {});
+/// The label with enough values for blocks; null: there is none.
+const NamedColumns::value_type* block_label(const RecognisedData& data, const NamedColumns& labels);
 /// Whether a label is empty in a row that has a reading.
 bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& label);
 /// The column of the readings' standard uncertainties, all of them above 0; null: there is none.
