@@ -248,10 +248,12 @@ void state_sizes_sought(const scenario::Scenario& scenario, Trace& out) {
 void state_model_fit(const scenario::Scenario& scenario, Trace& out) {
   constexpr std::size_t most = 6;
   std::vector<std::string> fitted;
+  bool shapes = false; // more than what is added to every reading
   for (const calibration::Parameter& p : out.estimate.parameters) {
     if (p.unknown.quantity >= scenario.quantities.size() || !std::isfinite(p.standard_uncertainty)) continue;
     const quantities::InputQuantity& q = scenario.quantities[p.unknown.quantity];
     if (!q.estimated || q.entries.size() != 1 || !quantities::effect_of(q.name).empty()) continue;
+    shapes |= !q.name.ends_with("offset");
     const std::string unit = display_unit(out.rms, q.unit, q.si_unit);
     const double u = units::from_si(p.standard_uncertainty, unit, q.si_unit, units::Kind::difference);
     const int decimals = analysis::decimals_for(u);
@@ -259,7 +261,7 @@ void state_model_fit(const scenario::Scenario& scenario, Trace& out) {
         "{} = {}{}, u = {}{}", q.name, analysis::fixed(units::from_si(p.value, unit, q.si_unit), decimals),
         units::suffix(unit), analysis::fixed(u, decimals), units::suffix(units::difference_unit(unit, q.si_unit))));
   }
-  if (std::ranges::all_of(fitted, [](const std::string& text) { return text.find("offset = ") != text.npos; })) return;
+  if (!shapes) return;
   const std::size_t more = fitted.size() - std::min(most, fitted.size());
   fitted.resize(fitted.size() - more);
   out.statements.push_back(fmt::format("fitted with the model, so that it is in no finding: {}{}",
