@@ -220,8 +220,7 @@ class Trace:
         if f.kind == "scatter":
             return "It cannot be corrected for; include it in the uncertainty budget."
         if f.tables and all(map(compensation.of_labels, f.tables)):
-            return ("The table below has the differences. Where they are errors, as between operators, correct for them; that parts are not "
-                    "of one size is none.")
+            return "The table below has the differences. Correct for them where they are errors; the sizes of parts are none."
         if f.tables and getattr(self.t, "unconfirmed", 0):
             return f"Measure another block before you correct by the table of {names.by('*'.join(f.depends_on))} below: {UNDECIDED}."
         if f.tables:
