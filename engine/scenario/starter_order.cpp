@@ -153,10 +153,11 @@ std::vector<const RecognisedColumn*> sorted_labels(const RecognisedData& data,
 
 std::vector<const RecognisedColumn*> sorted_by(const RecognisedData& data,
                                                const std::vector<const RecognisedColumn*>& labels) {
-  const auto is_time = [](const RecognisedColumn& c) { return c.role == ColumnRole::time; };
-  if (std::ranges::any_of(data.columns, is_time)) return {};
-  if (const RecognisedColumn* c = sweep(data)) return {c};
-  return sorted_labels(data, labels);
+  const RecognisedColumn* const time = data.find(ColumnRole::time);
+  if (time && time->basis != Basis::place) return {};
+  // Numbers of rows may be the order of measurement, or that of the table: then it need not be forgotten.
+  const RecognisedColumn* const swept = time ? nullptr : sweep(data);
+  return swept ? std::vector{swept} : sorted_labels(data, labels);
 }
 
 } // namespace gumshoe::scenario

@@ -21,8 +21,8 @@ std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data)
 std::vector<const RecognisedColumn*> days_in_order(const RecognisedData& data);
 
 /// The columns by which the rows are sorted, where no time tells their order: a position or a temperature, up or down,
-/// in a table of a calibration; or two labels and more that are crossed, the slowest first, where readings of equal
-/// labels stand together: a table of a study. Empty: there are none.
+/// in a table of a calibration whose rows are not numbered; or two labels and more that are crossed, the slowest first,
+/// where readings of equal labels stand together: a table of a study. Empty: there are none.
 /// @param labels columns of words that tell readings apart
 std::vector<const RecognisedColumn*> sorted_by(const RecognisedData& data,
                                                const std::vector<const RecognisedColumn*>& labels);

@@ -204,8 +204,9 @@ std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
     return line("blocks", "{ count = 6, interleaved = true }",
                 fmt::format("guessed: the rows are sorted by {}, of which a stretch would {}", fmt::join(names, ", "),
                             sorted.size() > 1 ? "hold a few" : "be an end")) +
-           line("order", toml_string(unknown_order),
-                "guessed: leave it out if they were read in the order of the rows");
+           (data.find(ColumnRole::time) ? ""
+                                        : line("order", toml_string(unknown_order),
+                                               "guessed: leave it out if they were read in the order of the rows"));
   }
   return line("blocks", "{ count = 6 }", "guessed: no column tells four or more cycles apart");
 }

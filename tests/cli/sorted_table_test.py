@@ -80,6 +80,21 @@ class SortedTable(InOneFolder):
             # Two of three pieces of a cell are known: sqrt(1 + 1/2) of the noise, 1 um, within 3 standard deviations of nine readings.
             self.assertLess(found["rms"]["holdout_after"], 2.2e-6, seed)
 
+    def test_a_study_whose_rows_are_numbered(self):
+        """The numbers may be the order of measurement; what was only in the last rows is found all the same, and told with what
+        cannot be told from it."""
+        chance = random.Random(1)
+        cells = [(m, level) for m in "ABC" for level in (100, 200, 500) for _ in range(15)]
+        rows = [f"{m},{level},{k + 1},{50 + (2 if (m, level) == ('C', 500) else 0) + chance.gauss(0, 0.5):.2f}" for k, (m, level) in enumerate(cells)]
+        (self.folder / "log.csv").write_text("machine,feed_set,no,width_um\n" + "\n".join(rows) + "\n")
+        run = gumshoe("new", "--from", "log.csv", "--force", cwd=self.folder)
+        text = (self.folder / "log.toml").read_text()
+        self.assertIn("interleaved = true", text, run.stdout)
+        self.assertIn('order = "no"', text)
+        found = self.trace()["findings"]
+        self.assertEqual([sorted(f["depends_on"]) for f in found], [["feed_set", "machine"]])
+        self.assertIn("cannot distinguish it from", " ".join(found[0]["remarks"]))
+
     def test_what_is_no_table_of_a_study(self):
         """Parts of their own in each batch are drawn from many: there whole batches are left out. A piece each may be in the order
         of measurement."""
