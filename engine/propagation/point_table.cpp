@@ -5,12 +5,12 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/units.h"
 #include "formula/finite.h"
 #include "propagation/forward_model.h"
 #include "propagation/table_columns.h"
+#include "scenario/reader.h"
 
 namespace gumshoe::propagation {
 namespace {
@@ -23,12 +23,7 @@ std::size_t chosen_evaluation(const ModelCard& card, const std::string& evaluati
   if (chosen < card.evaluations.size()) return chosen;
   std::vector<std::string> names;
   for (const EvaluationCard& e : card.evaluations) names.emplace_back(e.name);
-  const std::string meant = nearest(evaluation, names);
-  problems.push_back(
-      {{},
-       "unknown evaluation '" + evaluation + "'",
-       "",
-       meant.empty() ? fmt::format("use one of {}", fmt::join(names, ", ")) : "did you mean '" + meant + "'?"});
+  problems.push_back({{}, "unknown evaluation '" + evaluation + "'", "", scenario::did_you_mean(evaluation, names)});
   return chosen;
 }
 

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/units.h"
+#include "scenario/reader.h"
 
 namespace gumshoe::propagation {
 namespace {
@@ -90,14 +90,8 @@ void read_column(std::size_t c, const Csv& table, char decimal, TableColumns& ou
   if (slot == out.slots.end()) {
     std::vector<std::string> names;
     for (const Slot& s : out.slots) names.push_back(s.name);
-    const std::string meant = nearest(name, names);
-    constexpr std::size_t shown = 12;
-    const std::size_t more = names.size() - std::min(shown, names.size());
-    names.resize(names.size() - more);
-    out.problems.push_back({where, "unknown column '" + name.substr(0, 60) + "'", "",
-                            !meant.empty() ? "did you mean '" + meant + "'?"
-                                           : fmt::format("use one of {}{}", fmt::join(names, ", "),
-                                                         more > 0 ? fmt::format(" and {} more", more) : "")});
+    out.problems.push_back(
+        {where, "unknown column '" + name.substr(0, 60) + "'", "", scenario::did_you_mean(name, names)});
     return;
   }
   if (slot->given_column >= 0) {

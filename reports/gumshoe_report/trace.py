@@ -219,10 +219,10 @@ class Trace:
             return "Until further readings distinguish the causes, include it in the uncertainty budget."
         if f.kind == "scatter":
             return "It cannot be corrected for; include it in the uncertainty budget."
-        if f.tables and all(map(compensation.of_labels, f.tables)):
-            return "The table below has the differences. Correct for them where they are errors; the sizes of parts are none."
         if f.tables and getattr(self.t, "unconfirmed", 0):
             return f"Measure another block before you correct by the table of {names.by('*'.join(f.depends_on))} below: {UNDECIDED}."
+        if f.tables and all(map(compensation.of_labels, f.tables)):
+            return "The table below has the differences. Correct for them where they are errors; the sizes of parts are none."
         if f.tables:
             return f"Correct by the table of {names.by('*'.join(f.depends_on))} below; its cause is unknown."
         if not f.curves:
