@@ -114,15 +114,17 @@ namespace {
 /// part_id do, or of numbers the position; null: there is none. An operator with a machine of his own is no other name.
 const RecognisedColumn* other_name_of(const RecognisedData& data, const RecognisedColumn& c) {
   if (c.role != ColumnRole::other) return nullptr;
+  const auto words = words_of(c.name);
+  const auto shares_a_word = [&](const RecognisedColumn& other) {
+    return std::ranges::any_of(words_of(other.name),
+                               [&](const std::string& w) { return std::ranges::find(words, w) != words.end(); });
+  };
   const auto is = [&](const RecognisedColumn& other) {
+    if (&other == &c || !(shares_a_word(other) || (c.number && other.role == ColumnRole::position))) return false;
     const bool known = other.role == ColumnRole::position || other.role == ColumnRole::cycle ||
                        other.role == ColumnRole::alignment || other.role == ColumnRole::label ||
                        (&other < &c && tells_apart(data, other));
-    const auto words = words_of(other.name);
-    const bool shared = std::ranges::any_of(
-        words_of(c.name), [&](const std::string& w) { return std::ranges::find(words, w) != words.end(); });
-    return &other != &c && known && (shared || (c.number && other.role == ColumnRole::position)) &&
-           divide_alike(data, c, other);
+    return known && divide_alike(data, c, other);
   };
   const auto one = std::ranges::find_if(data.columns, is);
   return one == data.columns.end() ? nullptr : &*one;
