@@ -42,6 +42,9 @@ struct Criteria {
   double noise_grows = 12;
   /// Noise that is not declared differs by a label if equal normal noise would say so as plainly with this probability.
   double noise_differs = 2e-3;
+  /// It is judged about a straight line for each group of every pass, unless chance explains these with this
+  /// probability.
+  double no_drift = 0.05;
   /// 2 ln L by which two of its groups must differ: 5 % of what chance gives.
   double noise_alike = 3.84;
   /// So many groups of a label tell what another one will have: of three, Student's t has no standard deviation.
@@ -86,6 +89,9 @@ struct Criteria {
   std::size_t readings_of_block = 6; ///< indications of a block that show its scatter
   /// What repeats depends on a factor if, without it, this many standard deviations more of squares are left.
   double factor_counts = 3;
+  /// The noise of a label's groups is judged about the means of cells; a factor that chance explains with this
+  /// probability divides no cells there.
+  double idle_factor = 0.01;
   std::size_t blocks_for_holdout = 4;    ///< at least: one is held out, three remain to train on
   std::size_t holdout_part = 4;          ///< one block in so many is held out, the last in the order of measurement
   std::size_t least_training_blocks = 2; ///< blocks that must remain to train on

@@ -107,6 +107,29 @@ class UnequalNoise(unittest.TestCase):
                 share = held[operator] / all_of[operator]
                 self.assertTrue(0.90 <= share <= 0.985, (kind, operator, share))
 
+    def test_a_gauge_study_with_another_label(self):
+        """Ten parts, four operators, three readings each, on days by chance: hardly two readings agree in all of them, and days do not
+        matter. Of Bob's fourfold noise 25 readings are fitted; an F test of these tells 4 with a power of 0.999."""
+        toml = SCENARIO.replace("bores", "parts").replace('labels = { day = "day", operator = "operator" }',
+                                'labels = { part = "part", day = "day", operator = "operator" }\nrepeats = "apart"')
+        toml = toml.replace('units = { x = "mm", I = "um" }\nconditions = { x = "x" }', 'units = { I = "um" }')
+        toml = toml.replace('"a + b * x"', '"a"').replace('b = { estimated = true, value = "1 um/mm" }\n', "")
+        toml = toml.replace('blocks = "day"', 'blocks = { count = 6, interleaved = true }\norder = "unknown"')
+        def told(noise, seed):
+            random = np.random.default_rng([10, seed])
+            rows = [[f"P{part}", f"{random.integers(1, 6)}", who, f"{noise[who] * random.standard_normal():.2f}"]
+                    for part in range(10) for who in noise for _ in range(3)]
+            with (self.folder / "parts.csv").open("w", newline="") as file:
+                csv.writer(file).writerows([["part", "day", "operator", "I"], *rows])
+            (self.folder / "s.toml").write_text(toml)
+            return self.told(json.loads(self.run_("trace", "s.toml", "--draws", "199", "--format", "json")))
+
+        unequal = [told(dict(Ann=1.0, Bob=4.0, Cid=1.0, Dan=1.0), seed) for seed in range(8)]
+        self.assertGreaterEqual(sum(any(" of Bob;" in s for s in one) for one in unequal), 7, unequal)
+        self.assertTrue(all("the noise of I differs by operator" in s for one in unequal for s in one), unequal)
+        equal = [told(dict.fromkeys(("Ann", "Bob", "Cid", "Dan"), 1.0), seed) for seed in range(8)]
+        self.assertLessEqual(sum(map(len, equal)), 1, equal)  # three labels at 2 of 1000
+
     def test_equal_noise_is_not_told_apart(self):
         """2 of 1000, and bad readings and long tails do not count."""
         for seed in range(8):

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include <Eigen/QR>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 
 #include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
+#include "tracing/noise/fisher.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -62,7 +62,7 @@ Own own_of(Matrix y, const Matrix& x, const std::vector<std::size_t>& group, std
   out.share = 1 - apart / common;
   const auto gained = static_cast<double>(more - fewer);
   const double f = (common - apart) / gained / (apart / freedom);
-  out.p_value = boost::math::cdf(boost::math::complement(boost::math::fisher_f(gained, freedom), std::max(f, 0.0)));
+  out.p_value = p_of_f(f, gained, freedom);
   // The part that is the groups' own, over the freedom that it takes of what does not repeat.
   out.size = std::sqrt((common - apart) / (static_cast<double>(n - index(cells) - fewer)));
   return out;

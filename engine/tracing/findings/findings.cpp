@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,6 +14,7 @@
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/in_place_of_scatter.h"
+#include "tracing/noise/fisher.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -137,13 +137,12 @@ namespace {
 
 /// Means that differ by more than their repeats explain: what is read together is off together.
 void state_what_repeats_share(const TraceContext& c, const JointFit& fit, Trace& out) {
-  namespace bm = boost::math;
   const ReadoutScatter& repeats = c.observations.of_readouts;
   const double freedom = static_cast<double>(c.fitter.rows().size()) -
                          static_cast<double>(independent(fit.design, c.fitter.rows()).size());
   if (out.noise.declared || repeats.freedom < criteria.least_pure_freedom || !(repeats.s[0] > 0) || freedom < 1) return;
   const double ratio = std::pow(out.noise.scale / repeats.s[0], 2);
-  if (!(bm::cdf(bm::complement(bm::fisher_f(freedom, repeats.freedom), ratio)) < criteria.repeats_share_p)) return;
+  if (!(p_of_f(ratio, freedom, repeats.freedom) < criteria.repeats_share_p)) return;
   const VariableCard& card = c.experiment.model().card->indications[0];
   const auto shown = [&](double x) { return shown_size(x, std::string(card.unit), std::string(card.si_unit)); };
   out.statements.push_back(fmt::format(

@@ -78,13 +78,14 @@ std::optional<NoiseGrowth> Fitter::growth_without(const std::vector<Index>& bad)
   std::ranges::set_difference(rows_, bad, std::back_inserter(rows));
   const JointFit fit = linearised(1);
   if (!fit.valid) return std::nullopt;
-  const auto about = about_cells(fit, rows);
+  const auto about = about_cells(fit, rows, replicates_);
   if (!about) return std::nullopt;
   return tracing::noise_growth(observations_, replicates_, rows, *about);
 }
 
-std::optional<Vector> Fitter::about_cells(const JointFit& fit, const std::vector<Index>& rows) const {
-  const PureError pure(fit.design, rows, replicates_, threads_);
+std::optional<Vector> Fitter::about_cells(const JointFit& fit, const std::vector<Index>& rows,
+                                          const Replicates& replicates) const {
+  const PureError pure(fit.design, rows, replicates, threads_);
   if (!pure.known()) return std::nullopt; // what the model lacks would count as noise
   return Vector(pure.about_cells(fit.residual(rows)).col(0));
 }
@@ -95,21 +96,22 @@ Vector Fitter::relative_variance(std::size_t reading) const {
   return by_label_ ? Vector(by_label_->variance.row(index(reading)).transpose()) : Vector(Vector::Ones(k));
 }
 
-std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& bad, const JointFit& found) {
+std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& bad, const JointFit& found,
+                                                     const Replicates& replicates) {
   std::vector<Index> rows;
   std::ranges::set_difference(rows_, bad, std::back_inserter(rows));
   const auto about = [&] {
     JointFit fit = found;
-    return linearise(fit) ? about_cells(fit, rows) : std::nullopt;
+    return linearise(fit) ? about_cells(fit, rows, replicates) : std::nullopt;
   };
   by_label_.reset();
   std::optional<NoiseByLabel> best;
   if (const auto equal = about())
-    for (const NoiseByLabel& one : noise_by_labels(observations_, replicates_, rows, *equal)) {
+    for (const NoiseByLabel& one : noise_by_labels(observations_, replicates, rows, *equal)) {
       by_label_ = one;
       constexpr int rounds = 4; // each comes closer by a share of about one in the readings of a condition
       for (int i = 0; i < rounds; ++i)
-        if (const auto weighted = about()) by_label_ = refined(*by_label_, observations_, replicates_, rows, *weighted);
+        if (const auto weighted = about()) by_label_ = refined(*by_label_, observations_, replicates, rows, *weighted);
       if (by_label_->plain && (!best || by_label_->gain > best->gain)) best = by_label_;
     }
   by_label_.reset();
@@ -119,28 +121,32 @@ std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& b
 /// As in find_growth(), without readings that stand out with these weights and without them.
 bool Fitter::weigh_by_label(const JointFit& found) {
   if (noise_declared_ || growth_ || !coarse_.empty()) return false;
-  const auto best = by_label_without({}, found);
+  JointFit equally = found;
+  if (!linearise(equally)) return false;
+  const Replicates replicates =
+      PureError(equally.design, rows_, replicates_, threads_).without_idle_factors(equally.residual(rows_));
+  const auto best = by_label_without({}, found, replicates);
   if (!best) return false;
   const auto outlying = [&] {
     JointFit fit = found;
-    return linearise(fit) ? outlying_in_cells(fit) : std::vector<Index>{};
+    return linearise(fit) ? outlying_in_cells(fit, replicates) : std::vector<Index>{};
   };
   const std::vector<Index> with_equal = outlying();
   by_label_ = best;
   std::vector<Index> bad;
   std::ranges::set_intersection(with_equal, outlying(), std::back_inserter(bad));
-  by_label_ = bad.empty() ? best : by_label_without(bad, found);
+  by_label_ = bad.empty() ? best : by_label_without(bad, found, replicates);
   if (!by_label_) return false;
   covariance_models_.clear();
   find_covariance_models();
   return true;
 }
 
-std::vector<Index> Fitter::outlying_in_cells(const JointFit& fit) const {
+std::vector<Index> Fitter::outlying_in_cells(const JointFit& fit, const Replicates& replicates) const {
   std::vector<Index> out;
   if (!fit.valid) return out;
   const auto k = index(observations_.indications);
-  for (const Index i : PureError(fit.design, rows_, replicates_, threads_).outlying(fit.residual(rows_)))
+  for (const Index i : PureError(fit.design, rows_, replicates, threads_).outlying(fit.residual(rows_)))
     for (Index j = i / k * k; j < i / k * k + k; ++j) out.push_back(rows_[index(j)]);
   std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
@@ -153,10 +159,10 @@ void Fitter::find_growth() {
   if (noise_declared_ || !coarse_.empty()) return; // rounding scatters by where between two steps a place lies
   const auto grows = growth_without({});
   if (!grows) return;
-  const std::vector<Index> with_equal = outlying_in_cells(linearised(1));
+  const std::vector<Index> with_equal = outlying_in_cells(linearised(1), replicates_);
   growth_ = grows;
   std::vector<Index> bad;
-  std::ranges::set_intersection(with_equal, outlying_in_cells(linearised(1)), std::back_inserter(bad));
+  std::ranges::set_intersection(with_equal, outlying_in_cells(linearised(1), replicates_), std::back_inserter(bad));
   if (bad.empty()) return;
   growth_.reset();
   growth_ = growth_without(bad);

@@ -201,10 +201,12 @@ private:
   /// How noise grows by the training rows without these.
   std::optional<NoiseGrowth> growth_without(const std::vector<Index>& bad) const;
   /// Rows about the fit and the means of equal conditions, in units of the noise so far; none if too few repeat.
-  std::optional<Vector> about_cells(const JointFit& fit, const std::vector<Index>& rows) const;
-  std::optional<NoiseByLabel> by_label_without(const std::vector<Index>& bad, const JointFit& found);
+  std::optional<Vector> about_cells(const JointFit& fit, const std::vector<Index>& rows,
+                                    const Replicates& replicates) const;
+  std::optional<NoiseByLabel> by_label_without(const std::vector<Index>& bad, const JointFit& found,
+                                               const Replicates& replicates);
   /// Training rows of readings that stand out among those of equal conditions.
-  std::vector<Index> outlying_in_cells(const JointFit& fit) const;
+  std::vector<Index> outlying_in_cells(const JointFit& fit, const Replicates& replicates) const;
 
   /// Variance of a reading's noise that is not declared, by indication, over the least: 1 where it is equal.
   Vector relative_variance(std::size_t reading) const;

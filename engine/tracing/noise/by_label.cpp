@@ -10,6 +10,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "tracing/criteria.h"
+#include "tracing/noise/fisher.h"
 #include "tracing/noise/student.h"
 
 namespace gumshoe::tracing {
@@ -19,15 +20,15 @@ namespace {
 struct Stretch {
   std::size_t group, pass;
   Residuals residuals;
+  double drift, drift_freedom; ///< squares that a constant and a straight line took
 };
 
-/// About a constant, and from eight readings on a straight line in time; where the order of measurement is not known,
-/// nothing can drift. What the mean of equal conditions takes of a
-/// reading, it takes by the reading's share of their weight.
+/// About what they drift: a constant, and from eight readings on a straight line in time. What the mean of equal
+/// conditions takes of a reading, it takes by the reading's share of their weight.
 /// @param ratio  by group: the noise by which they are weighted
 std::vector<Stretch> stretches(const Observations& o, std::size_t indication, const Grouping& label,
                                const Replicates& replicates, const std::vector<Index>& rows, const Vector& about,
-                               const std::vector<double>& ratio) {
+                               const std::vector<double>& ratio, bool drift) {
   std::map<std::size_t, double> weights;                                      // of a cell
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of; // places among the chosen rows
   const auto place = [&](std::size_t i) { return index(rows[i]) / o.indications; };
@@ -41,7 +42,7 @@ std::vector<Stretch> stretches(const Observations& o, std::size_t indication, co
   std::vector<Stretch> out;
   for (const auto& [where, all] : of) {
     const auto n = index(all.size());
-    const Index used = !o.order_known ? 0 : n < 8 ? 1 : 2; // a drift within few readings counts as noise
+    const Index used = !drift ? 0 : n < 8 ? 1 : 2; // a drift within few readings counts as noise
     if (n < 2 * used) continue;
     Matrix columns(n, used);
     Vector left(n);
@@ -52,10 +53,13 @@ std::vector<Stretch> stretches(const Observations& o, std::size_t indication, co
     const Matrix q = used == 0
                          ? Matrix(n, 0)
                          : Matrix(Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(n, used));
+    const double all_squares = left.squaredNorm();
     left -= q * (q.transpose() * left);
-    Stretch one{where.first, where.second, {}};
+    Stretch one{where.first, where.second, {}, all_squares - left.squaredNorm(), 0};
     for (Index i = 0; i < n; ++i) {
-      const double share = 1 - q.row(i).squaredNorm() - weight(all[index(i)]) / weights.at(cell(all[index(i)]));
+      const double of_cell = weight(all[index(i)]) / weights.at(cell(all[index(i)]));
+      one.drift_freedom += q.row(i).squaredNorm() * (1 - of_cell);
+      const double share = 1 - q.row(i).squaredNorm() - of_cell;
       if (share < 0.1) continue; // hardly anything is left of one that is alone, or of two
       one.residuals.share.push_back(share);
       one.residuals.square.push_back(left[i] * left[i] / share);
@@ -63,6 +67,29 @@ std::vector<Stretch> stretches(const Observations& o, std::size_t indication, co
     out.push_back(std::move(one));
   }
   return out;
+}
+
+/// Whether groups drift within passes, by an F test in units of the noise of each.
+bool drift(const std::vector<Stretch>& all, std::size_t count) {
+  struct Squares {
+    double drift = 0, drift_freedom = 0, left = 0, freedom = 0;
+  };
+  std::vector<Squares> each(count);
+  for (const Stretch& one : all) {
+    Squares& of = each[one.group];
+    of.drift += one.drift, of.drift_freedom += one.drift_freedom;
+    for (std::size_t i = 0; i < one.residuals.share.size(); ++i) {
+      of.left += one.residuals.share[i] * one.residuals.square[i];
+      of.freedom += one.residuals.share[i];
+    }
+  }
+  double ratio = 0, above = 0, below = 0;
+  for (const Squares& of : each) {
+    if (of.freedom <= 4 || !(of.left > 0)) continue; // the mean of F, and its scatter, need four
+    ratio += of.drift / of.left * (of.freedom - 2);
+    above += of.drift_freedom, below += of.freedom;
+  }
+  return above > 0 && p_of_f(ratio / above, above, below) < criteria.no_drift;
 }
 
 struct Groups {
@@ -137,6 +164,18 @@ double wanted(double more) {
 /// By indication.
 using All = std::vector<std::vector<Stretch>>;
 
+/// Where the order of measurement is not known, nothing can drift.
+All all_stretches(const Observations& o, const Grouping& label, const Replicates& replicates,
+                  const std::vector<Index>& rows, const Vector& about, const std::vector<std::vector<double>>& ratio) {
+  All out;
+  for (std::size_t i = 0; i < o.indications; ++i) {
+    const auto of = [&](bool drift) { return stretches(o, i, label, replicates, rows, about, ratio[i], drift); };
+    if (o.order_known) out.push_back(of(true));
+    if (!o.order_known || !drift(out.back(), label.groups.size())) out.resize(i), out.push_back(of(false));
+  }
+  return out;
+}
+
 struct Judged {
   std::vector<Groups> of; ///< by indication
   double gain = -1;       ///< 2 ln L over what is wanted
@@ -207,9 +246,8 @@ std::vector<NoiseByLabel> noise_by_labels(const Observations& o, const Replicate
   for (const Grouping& label : o.labels) {
     if (label.group == o.blocks.group || are_passes(label, o, replicates)) continue;
     const std::size_t count = label.groups.size();
-    All all;
-    for (std::size_t i = 0; i < o.indications; ++i)
-      all.push_back(stretches(o, i, label, replicates, rows, about, std::vector<double>(count, 1)));
+    const std::vector<std::vector<double>> equal(o.indications, std::vector<double>(count, 1));
+    const All all = all_stretches(o, label, replicates, rows, about, equal);
     if (const Judged found = judged(all, count, 0.5); found.gain > 0) out.push_back(noise_of(label, found, o));
   }
   return out;
@@ -223,9 +261,7 @@ NoiseByLabel refined(const NoiseByLabel& so_far, const Observations& o, const Re
     unweighted[index(i)] *=
         so_far.ratio[index(rows[i]) % o.indications][label.group[o.sequence[index(rows[i]) / o.indications]]];
   const std::size_t count = label.groups.size();
-  All all;
-  for (std::size_t i = 0; i < o.indications; ++i)
-    all.push_back(stretches(o, i, label, replicates, rows, unweighted, so_far.ratio[i]));
+  const All all = all_stretches(o, label, replicates, rows, unweighted, so_far.ratio);
   const Judged found = judged(all, count, 1);
   NoiseByLabel out = noise_of(label, found, o);
   out.gain = found.gain;

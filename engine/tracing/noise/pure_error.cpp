@@ -9,6 +9,7 @@
 
 #include "propagation/parallel.h"
 #include "tracing/criteria.h"
+#include "tracing/noise/fisher.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -279,6 +280,36 @@ std::vector<std::string> PureError::depends_on(const Vector& residual) const {
     if (lost > 0 && excess > criteria.factor_counts * std::sqrt(2 * lost)) out.push_back(all.back());
   }
   return out.empty() ? all : out;
+}
+
+Replicates PureError::without_idle_factors(const Vector& residual) const {
+  const Matrix data = whitened(residual);
+  struct Left {
+    double squares, freedom;
+  };
+  const auto about = [&](const Replicates& replicates) {
+    SparseColumns columns = nuisance_;
+    columns.add_constants(replicates.cell);
+    const Projection projection = without(columns);
+    return Left{projection.squares(data)[0], freedom(projection)};
+  };
+  Replicates out = replicates_;
+  for (Left fine = about(out);;) {
+    double idle = criteria.idle_factor;
+    Replicates best;
+    Left of_best{};
+    for (std::size_t f = 0; f < out.factors.size(); ++f) {
+      Replicates coarse = out.without(f);
+      const Left left = about(coarse);
+      const double more = left.freedom - fine.freedom;
+      const bool told = more > 0 && fine.freedom > 0 && fine.squares > 0;
+      const double ratio = told ? (left.squares - fine.squares) / more / (fine.squares / fine.freedom) : 0;
+      if (const double p = told ? p_of_f(ratio, more, fine.freedom) : 1; p > idle)
+        idle = p, best = std::move(coarse), of_best = left;
+    }
+    if (best.cell.empty()) return out;
+    out = std::move(best), fine = of_best;
+  }
 }
 
 } // namespace gumshoe::tracing

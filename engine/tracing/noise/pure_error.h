@@ -40,6 +40,9 @@ public:
   std::vector<Index> outlying(const Vector& residual) const;
   /// Factors without which what repeats is no longer described.
   std::vector<std::string> depends_on(const Vector& residual) const;
+  /// Cells that distinguish no factor of which one residual shows no trace (F test by criteria.idle_factor), so that
+  /// more readings share one. May be called if too few repeat.
+  Replicates without_idle_factors(const Vector& residual) const;
 
 private:
   static double least_freedom();

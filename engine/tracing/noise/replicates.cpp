@@ -45,6 +45,13 @@ std::vector<std::size_t> Replicates::cells(std::size_t without) const {
   return numbered(all);
 }
 
+Replicates Replicates::without(std::size_t factor) const {
+  Replicates out = *this;
+  out.factors.erase(out.factors.begin() + index(factor));
+  out.cell = cells(factor);
+  return out;
+}
+
 Replicates find_replicates(const Observations& o) {
   const std::size_t n = o.readings;
   Replicates out;

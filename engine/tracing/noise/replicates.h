@@ -22,6 +22,8 @@ struct Replicates {
   bool passes_are_blocks = false;
   /// Cells that the factors other than one distinguish; `without` = their number: all of them.
   std::vector<std::size_t> cells(std::size_t without) const;
+  /// The same replicates, whatever the level of this factor.
+  Replicates without(std::size_t factor) const;
 };
 
 Replicates find_replicates(const Observations& observations);
