@@ -44,6 +44,8 @@ Agreement agreement(const Summary& samples_before, const Summary& samples_after,
   Agreement out;
   out.before = before, out.after = after;
   out.after.output.unit = before.output.unit;
+  require_proportional(same, budget_before, samples_before, "before: " + before.output.name);
+  require_proportional(same, budget_after, samples_after, "after: " + after.output.name);
   double shared = 0;
   std::vector<std::pair<std::string, double>> maybe; // quantities alike, with their covariance
   if (budget_before)

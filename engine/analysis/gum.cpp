@@ -366,6 +366,18 @@ Validation validate(const Budget& b, const Summary& s, double coverage_probabili
   return v;
 }
 
+namespace {
+
+/// A t of four degrees of freedom or fewer reaches the output, so that its variance by samples has no standard error.
+bool has_no_fourth_moment(const Budget& b) {
+  constexpr double counts = 0.01; // of the variance
+  return std::ranges::any_of(b.contributions, [](const Contribution& c) {
+    return c.distribution == "t" && c.degrees_of_freedom <= 4 && c.share > counts;
+  });
+}
+
+} // namespace
+
 double variance_over_scale(const Contribution& c) {
   const double freedom = c.degrees_of_freedom;
   return c.distribution == "t" && freedom > 2 && std::isfinite(freedom) ? freedom / (freedom - 2) : 1;
@@ -375,6 +387,13 @@ bool accounts_for_variance(const Budget& b, const Summary& s) {
   constexpr double apart = 0.05;
   const double u = s.standard_uncertainty;
   if (!std::isfinite(u)) return true;
+  if (has_no_fourth_moment(b) &&
+      std::isfinite(
+          b.expanded_uncertainty)) { // how far the samples' u is off is not known; how long their interval is, is
+    const double length = s.symmetric.high - s.symmetric.low,
+                 error = 2 * std::hypot(s.symmetric.low_se, s.symmetric.high_se);
+    return std::fabs(length - 2 * b.expanded_uncertainty) <= 2 * apart * length + (std::isfinite(error) ? error : 0);
+  }
   double wider = 1;
   for (const Contribution& c : b.contributions)
     if (std::isfinite(c.share)) wider += c.share * (variance_over_scale(c) - 1);

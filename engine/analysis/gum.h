@@ -45,6 +45,8 @@ double variance_over_scale(const Contribution& contribution);
 
 /// Whether the law of propagation accounts for the variance by Monte Carlo: both differ by no more than 5 % and twice
 /// the Monte Carlo standard error, where a t distribution contributes its variance and not the square of its scale.
+/// Where that standard error does not exist (a t of four degrees of freedom or fewer), the coverage intervals are
+/// compared: half their lengths differ by no more than 10 %, to which effective degrees of freedom hold.
 /// Otherwise the shares of the law are not those of the variance.
 bool accounts_for_variance(const Budget& budget, const Summary& summary);
 

@@ -1,11 +1,13 @@
 #include "analysis/shared_inputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "analysis/gum.h"
 #include "base/error.h"
 #include "scenario/document.h"
 
@@ -72,6 +74,28 @@ void require_shared(std::span<const std::string> wanted, std::span<const Results
                             "what the results share by that is not known from their budgets",
                             "leave it out, or evaluate both measurements in one scenario"});
   if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void require_proportional(std::span<const std::string> same, const Budget* budget, const Summary& summary,
+                          const std::string& where) {
+  if (!budget || accounts_for_variance(*budget, summary)) return;
+  constexpr double apart = 0.05;
+  std::map<std::string, std::pair<double, double>> shares; // by quantity: of the law, and of the samples
+  for (const Contribution& c : budget->contributions) {
+    if (std::ranges::find(same, c.quantity) == same.end()) continue;
+    const double u = signed_contribution(c) / summary.standard_uncertainty;
+    if (!std::isfinite(u)) return; // refused for that
+    shares[c.quantity].first += u * u * variance_over_scale(c);
+    shares[c.quantity].second += c.monte_carlo_share;
+  }
+  for (const auto& [name, share] : shares)
+    if (!(std::fabs(share.first - share.second) <= apart))
+      throw InputError(
+          fmt::format("{} depends on {} otherwise than in proportion, or may", where, name),
+          "the law of propagation does not account for its variance, and what the results share is not known from it",
+          std::isfinite(share.second) ? "evaluate both measurements in one scenario"
+                                      : "evaluate both measurements in one scenario, or run them with sensitivity = { "
+                                        "sobol = 65536 } in [analysis]");
 }
 
 void require_one_coverage(std::span<const Results* const> results) {

@@ -28,6 +28,13 @@ std::string correlated_with(const Results& result, const std::string& quantity);
 /// and is correlated with no other one.
 void require_shared(std::span<const std::string> same, std::span<const Results* const> results);
 
+/// Throws InputError if the output depends on one of the quantities `--same` otherwise than in proportion, so that what
+/// results share by it is not known from their budgets: the law of propagation does not account for the variance, and
+/// no first-order index shows that its part of this quantity does.
+/// @param where  "a.h5: y"
+void require_proportional(std::span<const std::string> same, const Budget* budget, const Summary& summary,
+                          const std::string& where);
+
 /// Throws InputError unless all results have one coverage probability.
 void require_one_coverage(std::span<const Results* const> results);
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -36,6 +37,8 @@ public:
     find_shared();
     for (std::size_t i = 0; i < size(); ++i) separate(i);
     solve();
+    judge();
+    add_weighing();
     expand_mean(coverage_probability);
     compare();
     find_alike();
@@ -52,6 +55,7 @@ private:
     const double u = s.standard_uncertainty;
     if (!(u > 0) || !std::isfinite(u) || !std::isfinite(s.estimate))
       throw InputError(where + " has no standard uncertainty", "its weight would not be known", "leave the result out");
+    require_proportional(same_, b, of_samples, where);
     if (!std::isfinite(of_samples.standard_uncertainty)) without_variance_.push_back(where);
     if (out_.parts.empty()) out_.mean.output = s.output;
     const propagation::Output& first = out_.mean.output;
@@ -65,8 +69,9 @@ private:
     out_.parts.push_back(part);
     budgets_.push_back(b);
     names_.push_back(where);
-    by_framework_ =
-        by_framework_ && b && b->applicable && b->combined_standard_uncertainty > 0 && accounts_for_variance(*b, s);
+    accounted_.push_back(b && b->applicable && b->combined_standard_uncertainty > 0 &&
+                         accounts_for_variance(*b, of_samples));
+    by_framework_ = by_framework_ && accounted_.back();
   }
 
   /// One kind of u for all: a mean must not move because one result has enough samples to be validated.
@@ -137,6 +142,12 @@ private:
       own += square;
       satterthwaite += square * square / c.degrees_of_freedom;
     }
+    if (!accounted_[i]) { // only what is shared is known from the budget
+      double rest = part.own * part.own;
+      for (const SharedPart& s : out_.shared) rest -= s.contributions[i] * s.contributions[i];
+      part.own = std::sqrt(std::max(rest, 0.0));
+      return;
+    }
     const double scale = part.own / std::sqrt(all);
     part.own = scale * std::sqrt(own);
     part.own_degrees_of_freedom = by_framework_ && satterthwaite > 0 ? own * own / satterthwaite : infinite;
@@ -170,8 +181,48 @@ private:
     for (Eigen::Index i = 0; i < n; ++i) out_.parts[at(i)].weight = solved[i] / (u(i) * information);
     const Eigen::VectorXd residuals = y - shift * ones;
     out_.chi_squared = std::max(0.0, residuals.dot(factor.solve(residuals)));
-    out_.probability =
-        cdf(complement(boost::math::chi_squared(static_cast<double>(n - 1)), std::min(out_.chi_squared, 1e300)));
+  }
+
+  /// Weights of the parts by what is their own; of one that is known exactly 1.
+  std::vector<double> own_weights() const {
+    const double largest = std::ranges::max_element(out_.parts, {}, &WeightedPart::own)->own;
+    std::vector<double> out;
+    double sum = 0;
+    for (const WeightedPart& p : out_.parts) sum += out.emplace_back(std::pow(std::max(p.own / largest, 1e-9), -2));
+    for (double& p : out) p /= sum;
+    return out;
+  }
+
+  /// Welch's test of equal means with unequal variances.
+  void judge() {
+    const auto n = static_cast<double>(size());
+    const std::vector<double> p = own_weights();
+    double estimated = 0;
+    for (std::size_t i = 0; i < size(); ++i) estimated += std::pow(1 - p[i], 2) / out_.parts[i].own_degrees_of_freedom;
+    const double chi_squared = std::min(out_.chi_squared, 1e300);
+    out_.ratio = chi_squared / (n - 1) / (1 + 2 * (n - 2) / (n * n - 1) * estimated);
+    out_.ratio_degrees_of_freedom = estimated > 0 ? (n * n - 1) / (3 * estimated) : infinite;
+    out_.probability = estimated > 0
+                           ? cdf(complement(boost::math::fisher_f(n - 1, out_.ratio_degrees_of_freedom), out_.ratio))
+                           : cdf(complement(boost::math::chi_squared(n - 1), chi_squared));
+  }
+
+  /// Its degrees of freedom are such that those of the mean stay as they are.
+  void add_weighing() {
+    double own = 0, share = 0, satterthwaite = 0;
+    const std::vector<double> p = own_weights();
+    for (std::size_t i = 0; i < size(); ++i) {
+      const WeightedPart& part = out_.parts[i];
+      own += std::pow(part.weight * part.own, 2);
+      satterthwaite += std::pow(part.weight * part.own, 4) / part.own_degrees_of_freedom;
+      share += 4 * p[i] * (1 - p[i]) / std::max(part.own_degrees_of_freedom - 2, 1.0);
+    }
+    const double more = share * own;
+    if (!(more > 0)) return;
+    out_.weighing = std::sqrt(more);
+    const double freedom = own * own / satterthwaite;
+    out_.weighing_degrees_of_freedom = more * more * freedom / (std::pow(own + more, 2) - own * own);
+    out_.mean.standard_uncertainty = std::hypot(out_.mean.standard_uncertainty, out_.weighing);
   }
 
   static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
@@ -185,6 +236,7 @@ private:
       for (std::size_t i = 0; i < size(); ++i) sum += out_.parts[i].weight * s.contributions[i];
       satterthwaite += std::pow(sum, 4) / s.degrees_of_freedom;
     }
+    if (out_.weighing > 0) satterthwaite += std::pow(out_.weighing, 4) / out_.weighing_degrees_of_freedom;
     CombinedVariance variance;
     variance.independent = std::pow(out_.mean.standard_uncertainty, 2);
     if (satterthwaite > 0)
@@ -196,11 +248,12 @@ private:
     out_.mean.certificate = certificate_line(out_.mean, coverage_probability);
   }
 
-  /// Each result with the mean: cov(y_i, mean) = u(mean)^2.
+  /// Each result with the mean: cov(y_i, mean) = u(mean)^2, with the weights as they are.
   void compare() {
+    const double of_mean = std::pow(out_.mean.standard_uncertainty, 2) - std::pow(out_.weighing, 2);
     for (WeightedPart& p : out_.parts) {
       p.difference = p.summary.estimate - out_.mean.estimate;
-      const double square = std::pow(p.summary.standard_uncertainty, 2) - std::pow(out_.mean.standard_uncertainty, 2);
+      const double square = std::pow(p.summary.standard_uncertainty, 2) - of_mean;
       p.normalised_error = square > 0 ? p.difference / (out_.mean.coverage_factor * std::sqrt(square))
                                       : std::numeric_limits<double>::quiet_NaN();
     }
@@ -224,6 +277,7 @@ private:
   /// u and degrees of freedom are those of the budgets; else u is that of the samples, which has both.
   bool by_framework_ = true;
   std::vector<const Budget*> budgets_; ///< by part; null: none
+  std::vector<bool> accounted_;        ///< by part: by the budget, for the variance of the samples
   std::vector<std::string> names_;     ///< by part: "a.h5: laser_z"
   std::vector<std::string> without_variance_; ///< by Monte Carlo
   WeightedMean out_;

@@ -33,6 +33,7 @@ public:
     for (std::size_t i = 0; i < mean.parts.size(); ++i)
       parts_.push_back(symbol(fmt::format("{}_{}", measurand_, i + 1)));
     for (const SharedPart& s : mean.shared) shared_.push_back(symbol(s.name));
+    if (mean.weighing > 0) weighing_ = symbol("weights");
   }
 
   std::string text() const {
@@ -48,6 +49,7 @@ public:
     Node& quantities = member(document, "quantities");
     for (std::size_t i = 0; i < parts_.size(); ++i) describe_part(i, member(quantities, parts_[i]));
     for (std::size_t k = 0; k < shared_.size(); ++k) describe_shared(mean_.shared[k], member(quantities, shared_[k]));
+    if (!weighing_.empty()) describe_weighing(member(quantities, weighing_));
     member(member(document, "run"), "samples") = whole_number_node(1'000'000);
     member(member(document, "analysis"), "coverage_probability") =
         number_node(results_[0].results.coverage_probability);
@@ -96,7 +98,7 @@ private:
       out += i == 0 ? fmt::format("{} * ({})", weight, result)
                     : fmt::format(" {} {} * ({})", weight < 0 ? '-' : '+', std::fabs(weight), result);
     }
-    return out;
+    return weighing_.empty() ? out : out + " + " + weighing_;
   }
 
   void describe_spread(Node& quantity, double u, double degrees_of_freedom) const {
@@ -115,11 +117,21 @@ private:
         text_node(fmt::format("{}{}", results_[part.result].name, shared_.empty() ? "" : ", without what it shares"));
   }
 
-  void describe_shared(const SharedPart& s, Node& quantity) const {
+  /// An error is a difference: "0 degC" would be a point.
+  void describe_error(Node& quantity) const {
     const auto& output = mean_.mean.output;
-    // An error is a difference: "0 degC" would be a point.
     member(quantity, "value") =
         measure_node(0, units::difference_unit(output.unit, output.si_unit), output.si_unit, true);
+  }
+
+  void describe_weighing(Node& quantity) const {
+    describe_error(quantity);
+    describe_spread(quantity, mean_.weighing, mean_.weighing_degrees_of_freedom);
+    member(quantity, "source") = text_node("the weights come from estimated uncertainties (Meier 1953)");
+  }
+
+  void describe_shared(const SharedPart& s, Node& quantity) const {
+    describe_error(quantity);
     describe_spread(quantity, std::fabs(size_of(s)), s.degrees_of_freedom);
     std::vector<std::string> files;
     for (std::size_t i = 0; i < parts_.size(); ++i)
@@ -132,6 +144,7 @@ private:
   std::set<std::string> used_;
   std::string measurand_;
   std::vector<std::string> parts_, shared_;
+  std::string weighing_; ///< empty: the weights are known
 };
 
 } // namespace

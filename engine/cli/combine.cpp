@@ -77,9 +77,15 @@ void print(const WeightedMean& m, const std::vector<NamedResult>& results) {
                              units::suffix(o.unit), with_unit(p.summary.standard_uncertainty), p.weight,
                              p.normalised_error);
   }
-  std::cout << fmt::format("  chi^2 = {:.2f} ({} degree{} of freedom, p {}{}): {}\n", m.chi_squared, m.parts.size() - 1,
-                           m.parts.size() == 2 ? "" : "s", m.probability < least_p ? "" : "= ",
-                           probability_text(m.probability, least_p), verdict(m));
+  const std::string p = (m.probability < least_p ? "p " : "p = ") + probability_text(m.probability, least_p);
+  if (std::isfinite(m.ratio_degrees_of_freedom))
+    std::cout << fmt::format(
+        "  the weights come from estimated uncertainties, which adds {} to u of the mean\n"
+        "  chi^2 = {:.2f}; by Welch's test F = {:.2f} ({} and {:.1f} degrees of freedom, {}): {}\n",
+        with_unit(m.weighing), m.chi_squared, m.ratio, m.parts.size() - 1, m.ratio_degrees_of_freedom, p, verdict(m));
+  else
+    std::cout << fmt::format("  chi^2 = {:.2f} ({} degree{} of freedom, {}): {}\n", m.chi_squared, m.parts.size() - 1,
+                             m.parts.size() == 2 ? "" : "s", p, verdict(m));
   std::vector<std::string> shared;
   for (const SharedPart& s : m.shared) shared.push_back(s.name);
   if (!shared.empty()) std::cout << fmt::format("  one error in several results: {}\n", fmt::join(shared, ", "));
@@ -117,6 +123,9 @@ Json to_json(const WeightedMean& m, const std::vector<NamedResult>& results) {
            {"certificate", m.mean.certificate},
            {"chi_squared", number(m.chi_squared)},
            {"chi_squared_degrees_of_freedom", m.parts.size() - 1},
+           {"ratio", number(m.ratio)},
+           {"ratio_degrees_of_freedom", number(m.ratio_degrees_of_freedom)},
+           {"weighing_uncertainty", width(m.weighing)},
            {"probability", number(m.probability)},
            {"consistent", m.consistent()},
            {"results", Json::array()},

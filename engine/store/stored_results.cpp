@@ -46,6 +46,14 @@ std::vector<Summary> read_summaries(hid_t file) {
   fill(group, "coverage_factor", rows, &Summary::coverage_factor);
   fill(group, "degrees_of_freedom", rows, &Summary::degrees_of_freedom);
   fill(group, "certificate", rows, &Summary::certificate);
+  for (const auto& [key, member] : {std::pair{"symmetric_low", &Interval::low},
+                                    {"symmetric_high", &Interval::high},
+                                    {"symmetric_low_se", &Interval::low_se},
+                                    {"symmetric_high_se", &Interval::high_se}}) {
+    const auto numbers = hdf5::read_numbers(group, key);
+    require_rows(numbers.size() == rows.size(), key);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].symmetric.*member = numbers[i];
+  }
   return rows;
 }
 
@@ -73,6 +81,7 @@ Budget read_budget(hid_t group, const propagation::Output& output) {
   fill(group, "sensitivity", rows, &Contribution::sensitivity);
   fill(group, "contribution", rows, &Contribution::contribution);
   fill(group, "share", rows, &Contribution::share);
+  fill(group, "monte_carlo_share", rows, &Contribution::monte_carlo_share);
   fill(group, "source", rows, &Contribution::source);
   const auto evaluation = hdf5::read_texts(group, "evaluation");
   require_rows(evaluation.size() == rows.size(), "evaluation");

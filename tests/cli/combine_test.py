@@ -64,10 +64,11 @@ class Combine(Lengths):
         row = self.mean(*three, "--same", "reference")
         for shared in row["shared"][0]["contributions"]:
             self.assertAlmostEqual(shared, -0.004, delta=1e-12)
-        self.assertAlmostEqual(row["standard_uncertainty"], math.sqrt(16 + 9 / 3) / 1000, delta=1e-9)
+        # Three equal weights from u with 5 degrees of freedom add 4 * 3 * (1/3) (2/3) / (5 - 2) of 9/3 (Meier 1953).
+        self.assertAlmostEqual(row["standard_uncertainty"], math.sqrt(16 + 9 / 3 * (1 + 8 / 9)) / 1000, delta=1e-9)
         extra = '[quantities.zero]\nvalue = "110.004 mm"\n[quantities.bend]\nvalue = "1000 1/mm"\n[run]'
         bent = self.result("bent", formula="reading - reference + bend * (reading - zero)^2", reading=110.004,
-                           change=lambda t: few(t).replace("[run]", extra))
+                           change=lambda t: few(t).replace("[run]", extra) + "sensitivity = { sobol = 16384 }\n")
         row = self.mean(three[0], bent, "--same", "reference")
         self.assertAlmostEqual(row["shared"][0]["contributions"][0], -0.004, delta=0.04 * 0.004)
         self.assertAlmostEqual(row["results"][0]["standard_uncertainty"], math.sqrt(16 + 15) / 1000, delta=0.04 * 0.0056)
@@ -126,7 +127,18 @@ class Combine(Lengths):
         row = self.mean(*[self.result(f"few{k}", reading=110 + k / 1000, change=plain)
                           for k in range(2)])
         self.assertEqual(row["degrees_of_freedom"], 10)
-        self.assertAlmostEqual(row["expanded_uncertainty"], 2.2281388520 * 0.003 / math.sqrt(2), delta=1e-9)
+        # The weights, 1/2 each, add 4 * 2 * (1/2)^2 / (5 - 2) to u^2 (Meier 1953).
+        self.assertAlmostEqual(row["expanded_uncertainty"], 2.2281388520 * 0.003 / math.sqrt(2) * math.sqrt(5 / 3), delta=1e-9)
+
+    def test_a_mean_does_not_move_with_the_seed(self):
+        """Four readings each: by samples the standard deviation of a t with three degrees of freedom is anything."""
+        few = lambda t: t.replace('u = "3 um"\n', 'u = "3 um"\ndegrees_of_freedom = 3\n').replace('u = "4 um"\n', "")
+        means = []
+        for seed in range(10, 130, 10):
+            labs = [self.result(f"lab{k}", reading=110 + k / 1000, seed=seed + k, change=lambda t: few(t).replace(str(SAMPLES), "5000")) for k in range(3)]
+            means.append(self.mean(*labs))
+        self.assertEqual({round(m["standard_uncertainty"], 9) for m in means}, {round(0.003 * math.sqrt((1 + 8 / 3) / 3), 9)})
+        self.assertEqual({m["degrees_of_freedom"] for m in means}, {9})
 
     def test_a_mean_of_three_observations_has_the_uncertainty_of_the_framework(self):
         """A t with two degrees of freedom has no variance, but u = s / sqrt(3) by GUM 4.2.3, and its U by G.4."""
@@ -134,7 +146,9 @@ class Combine(Lengths):
             'value = "10.0 mm"', 'observations = ["109.997 mm", "110.001 mm", "110.005 mm"]'))
         row = self.mean(self.a, few)
         va, vb = 3**2 + 4**2, 16 / 3 + 4**2
-        self.assertAlmostEqual(row["standard_uncertainty"] * 1000, math.sqrt(1 / (1 / va + 1 / vb)), delta=1e-9)
+        p, freedom = va / (va + vb), 2 * (vb / (16 / 3))**2  # 32 effective degrees of freedom (G.4.1), of the weights (Meier 1953)
+        more = 1 + 4 * p * (1 - p) / (round(freedom) - 2)
+        self.assertAlmostEqual(row["standard_uncertainty"] * 1000, math.sqrt(more / (1 / va + 1 / vb)), delta=1e-9)
         self.assertAlmostEqual(row["results"][1]["weight"], va / (va + vb), delta=1e-9)
         said = gumshoe("compare", self.a, few, "--format", "json")
         one = json.loads(said.stdout)["comparisons"][0]
@@ -226,6 +240,21 @@ class Combine(Lengths):
                              reading=110 + k / 1000) for k in range(2)]
         for name in "yz":
             self.refused(f"{name}: the results cannot be combined", *alone, "--same", "reference")
+
+    def test_what_is_shared_and_squared_is_no_first_order(self):
+        """r^2 is one error in both, whose covariance c_r u_r c_r u_r would be zero: they had agreed, E_n = 0.4."""
+        def squared(name, reading, extra=""):
+            return self.result(name, formula="reading + bend * reference^2", reading=reading, change=lambda t: t.replace(
+                '"100 mm"', '"0 mm"').replace("[run]", '[quantities.bend]\nvalue = "100 1/mm"\n[run]') + extra)
+        a, b = squared("square1", 10), squared("square2", 10.002)
+        c, d = (squared(f"known{k}", 10 + k / 500, "sensitivity = { sobol = 4096 }\n") for k in range(2))
+        for command in ("compare", "combine"):
+            refused = gumshoe(command, a, b, "--same", "reference")
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            self.assertIn("y depends on reference otherwise than in proportion", refused.stderr)
+            self.assertIn("sobol", gumshoe(command, a, b, "--same", "reading").stderr)  # in proportion, or not?
+            self.assertEqual(gumshoe(command, c, d, "--same", "reading").returncode, 0)
+            self.assertIn("in one scenario.", gumshoe(command, c, d, "--same", "reference").stderr)
 
     def test_refusals(self):
         self.refused("a single result cannot be combined", self.a)
