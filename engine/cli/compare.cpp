@@ -12,6 +12,7 @@
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
 #include "base/json_text.h"
+#include "base/special_values.h"
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/shards.h"
@@ -153,6 +154,40 @@ ExitCode compare_results(const CompareOptions& o) {
   return ExitCode::done;
 }
 
+/// A size that both traces found, before and after.
+struct SizeChange {
+  store::StoredSize before, after;
+  double difference() const { return after.value - before.value; }
+  /// Half the 95 % intervals, added in squares: E_n compares the difference with it.
+  double expanded() const { return std::hypot(before.high - before.low, after.high - after.low) / 2; }
+  double normalised_error() const { return expanded() > 0 ? difference() / expanded() : nan; }
+};
+
+std::vector<SizeChange> size_changes(const store::StoredTrace& before, const store::StoredTrace& after) {
+  std::vector<SizeChange> out;
+  for (const store::StoredSize& a : before.sizes)
+    for (const store::StoredSize& b : after.sizes)
+      if (a.finding == b.finding && a.name == b.name && a.labels == b.labels && a.si_unit == b.si_unit)
+        out.push_back({a, b});
+  return out;
+}
+
+void print(const SizeChange& c) {
+  const std::string &unit = c.before.unit, &si = c.before.si_unit;
+  const auto width = [&](double x) { return units::from_si(x, unit, si, units::Kind::difference); };
+  const auto shown = [&](const store::StoredSize& s) {
+    const int d = decimals_for(width(s.u));
+    return fmt::format("{}{}, u = {}", fixed(units::from_si(s.value, unit, si), d), units::suffix(unit),
+                       fixed(width(s.u), d));
+  };
+  std::cout << fmt::format("{}.{}{}: before {}; after {}", c.before.finding, c.before.name,
+                           c.before.labels.empty() ? "" : "[" + c.before.labels + "]", shown(c.before), shown(c.after));
+  if (const double e = c.normalised_error(); std::isfinite(e))
+    std::cout << fmt::format("; E_n = {:.2f}: {}", rounded(e),
+                             std::fabs(e) <= 1 ? "they agree" : "they differ by more than their uncertainties explain");
+  std::cout << '\n';
+}
+
 ExitCode compare_traces(const CompareOptions& o) {
   if (!o.same.empty())
     throw InputError("--same: two traces have no budgets to compare", "", "compare results of gumshoe run");
@@ -174,6 +209,23 @@ ExitCode compare_traces(const CompareOptions& o) {
         one[key] = number(units::from_si(t->rms.*member, before.rms.unit, before.rms.si_unit, units::Kind::difference));
       out[name] = std::move(one);
     }
+    out["sizes"] = Json::array();
+    for (const SizeChange& c : size_changes(before, after)) {
+      Json one{{"finding", c.before.finding},
+               {"quantity", c.before.name},
+               {"labels", c.before.labels},
+               {"unit", c.before.unit}};
+      const auto width = [&](double x) {
+        return number(units::from_si(x, c.before.unit, c.before.si_unit, units::Kind::difference));
+      };
+      for (const auto& [when, s] : {std::pair("before", &c.before), {"after", &c.after}})
+        one[when] = {{"value", number(units::from_si(s->value, c.before.unit, c.before.si_unit))},
+                     {"standard_uncertainty", width(s->u)}};
+      one["difference"] = width(c.difference());
+      one["expanded_uncertainty"] = width(c.expanded());
+      one["normalised_error"] = number(c.normalised_error());
+      out["sizes"].push_back(std::move(one));
+    }
     std::cout << json_text(out) << '\n';
     return ExitCode::done;
   }
@@ -192,6 +244,7 @@ ExitCode compare_traces(const CompareOptions& o) {
     std::cout << fmt::format("found {}: {}{}\n", when,
                              t->findings.empty() ? "nothing" : fmt::format("{}", fmt::join(t->findings, ", ")),
                              t->vetoed ? "; rejected by the held-out readings" : "");
+  for (const SizeChange& c : size_changes(before, after)) print(c);
   if (std::isfinite(before.rms.holdout_after) && std::isfinite(after.rms.holdout_before) && !before.findings.empty())
     std::cout << fmt::format("expected after correcting what was found: {}; measured: {}\n",
                              with_suitable_unit(before.rms.holdout_after, before.rms.unit, before.rms.si_unit),

@@ -14,8 +14,7 @@ class History {
 public:
   History() = default;
   /// Throws InputError if the file is no history, is of another model or of other equations, or holds these readings
-  /// already. `path` empty:
-  /// none is kept.
+  /// already, or many of them in a row. `path` empty: none is kept.
   History(const std::string& path, const scenario::Scenario& scenario, const ModelCard& card);
   explicit operator bool() const { return !path_.empty(); }
 
@@ -27,7 +26,9 @@ public:
 
 private:
   void require_same_model() const;
-  std::string path_, id_, model_, model_title_, model_equations_;
+  std::string path_, id_;
+  std::vector<double> rows_; ///< digests of the readings
+  std::string model_, model_title_, model_equations_;
   store::Claim claim_;
   std::vector<tracing::Campaign> campaigns_;
   tracing::EvidenceOverTime evidence_;

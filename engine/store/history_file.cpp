@@ -56,6 +56,8 @@ void write_campaign(hid_t group, const Campaign& c) {
   const hdf5::Units per{"1 / si_unit", true}, squared{"1 / si_unit^2", true};
   rows.numbers("score", score, per, "g'Wr of the residuals r and the signature g of a unit of the size");
   pairs.numbers("information", information, squared, "g'Wg of the sizes of each effect, matrix after matrix");
+  Table readings(group, "reading", c.rows.size());
+  readings.numbers("reading_digest", c.rows, "1", "digest of what was read and set, in the order given");
 }
 
 Campaign read_campaign(hid_t group) {
@@ -71,6 +73,7 @@ Campaign read_campaign(hid_t group) {
     c.model_title = hdf5::read_text(group, "model_title");
   }
   if (H5Aexists(group, "model_equations") > 0) c.model_equations = hdf5::read_text(group, "model_equations");
+  if (hdf5::has(group, "reading_digest")) c.rows = hdf5::read_numbers(group, "reading_digest");
   if (!hdf5::has(group, "score")) return c; // nothing could be looked for
   const auto candidate = hdf5::read_texts(group, "candidate"), size = hdf5::read_texts(group, "quantity"),
              unit = hdf5::read_texts(group, "unit"), si_unit = hdf5::read_texts(group, "si_unit");

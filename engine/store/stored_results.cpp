@@ -107,6 +107,26 @@ analysis::Results read_results(const std::string& path) {
   return out;
 }
 
+namespace {
+
+/// Those of the last finding.
+void read_sizes(hid_t group, StoredTrace& out) {
+  if (!hdf5::has(group, "name")) return;
+  std::vector<StoredSize> rows(hdf5::read_texts(group, "name").size());
+  fill(group, "name", rows, &StoredSize::name);
+  fill(group, "labels", rows, &StoredSize::labels);
+  fill(group, "display_units", rows, &StoredSize::unit);
+  fill(group, "units", rows, &StoredSize::si_unit);
+  fill(group, "value", rows, &StoredSize::value);
+  fill(group, "standard_uncertainty", rows, &StoredSize::u);
+  fill(group, "low", rows, &StoredSize::low);
+  fill(group, "high", rows, &StoredSize::high);
+  for (StoredSize& one : rows) one.finding = out.findings.back();
+  std::ranges::move(rows, std::back_inserter(out.sizes));
+}
+
+} // namespace
+
 StoredTrace read_trace(const std::string& path) {
   const Lock lock(hdf5::library());
   const hdf5::Handle file = open_file(path, H5F_ACC_RDONLY), trace = hdf5::open_group(file, "trace"),
@@ -131,7 +151,9 @@ StoredTrace read_trace(const std::string& path) {
   for (std::size_t k = 0;; ++k) {
     const std::string place = fmt::format("{:03d}", k);
     if (!hdf5::has(findings, place)) return out;
-    out.findings.push_back(hdf5::read_text(hdf5::open_group(findings, place), "name"));
+    const hdf5::Handle finding = hdf5::open_group(findings, place);
+    out.findings.push_back(hdf5::read_text(finding, "name"));
+    if (hdf5::has(finding, "quantities")) read_sizes(hdf5::open_group(finding, "quantities"), out);
   }
 }
 

@@ -15,6 +15,23 @@ from program import ROOT, SCENARIO, gumshoe
 SAMPLES = 200_000
 
 
+PLAY = """schema = 1
+[model]
+name = "linear_axis"
+[data]
+file = "play.csv"
+labels = { cycle = "cycle" }
+units = { x = "mm", d = "um" }
+conditions = { position = "x", direction = "direction" }
+[quantities]
+offset = { estimated = true, value = "0 um" }
+[indications.deviation]
+readings = "d"
+[trace]
+blocks = "cycle"
+"""
+
+
 class Compare(Lengths):
     COMMAND, SAMPLES = "compare", SAMPLES
 
@@ -123,6 +140,26 @@ class Compare(Lengths):
         self.refused("the traces have residuals of different dimensions", *cells)
         self.refused("the traces are of different models (linear_axis and expression)", files[0], cells[0])
         self.refused("two traces have no budgets to compare", *files, "--same", "reference")
+
+    def test_traces_that_find_one_effect_say_what_became_of_its_size(self):
+        """Of an axis whose play grows from 4 um to 6 um."""
+        files = []
+        for k, play in enumerate((4, 6)):
+            rows = ["cycle,x,direction,d"]
+            for cycle in range(6):
+                rows += [f"{cycle},{x},{way}1,{play / 2 * int(way + '1') + 0.3 * math.sin(7.3 * cycle + 1.7 * x + k):.3f}"
+                         for way, xs in (("+", range(0, 500, 50)), ("-", range(450, -1, -50))) for x in xs]
+            (self.folder / "play.csv").write_text("\n".join(rows) + "\n")
+            (self.folder / "play.toml").write_text(PLAY)
+            files.append(self.folder / f"play{k}.h5")
+            run = gumshoe("trace", "play.toml", "--draws", 99, "--out", files[-1], "--force", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        size, = self.compared(*files)["sizes"]
+        self.assertEqual((size["finding"], size["quantity"], size["unit"]), ("axis_reversal", "backlash", "um"))
+        self.assertAlmostEqual(size["difference"], 2, delta=0.1)
+        self.assertAlmostEqual(size["normalised_error"], size["difference"] / size["expanded_uncertainty"], delta=1e-9)
+        self.assertRegex(gumshoe("compare", *files).stdout, r"axis_reversal\.backlash: before [34]\.\d+ um, u = \S+; after [56]\.\d+ um, u = \S+; "
+                         r"E_n = \d+\.\d\d: they differ by more")
 
     def correct(self, data):
         """Takes the mean over the cycles, by position and direction, off the readings."""

@@ -2,6 +2,7 @@
 
 usage: weeks_test.py path/to/gumshoe [unittest options]
 """
+import json
 import pathlib
 import subprocess
 import sys
@@ -48,6 +49,43 @@ class Weeks(unittest.TestCase):
         # Of 90 training readings a week; without the effect the noise looks correlated, which costs up to a factor of 3.
         self.assertGreater(size["u"], 0.9 / (4 * 90) ** 0.5)
         self.assertLess(size["u"], 3 / (4 * 90) ** 0.5)
+
+    def test_a_log_that_grows_is_not_counted_again(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            run = lambda: subprocess.run([GUMSHOE, "trace", "s.toml", "--append", "h.h5", "--force"], cwd=folder, capture_output=True, text=True)
+            axis.write(folder, "reversal", 1)
+            (folder / "s.toml").write_text(axis.scenario(True) + weeks.STATED)
+            self.assertEqual(run().returncode, 0)
+            table = next(folder.glob("*.csv"))
+            head, *rows = table.read_text().splitlines()
+            axis.write(folder, "reversal", 2)
+            later = lambda cycle, x, direction, t, *rest: ",".join([str(int(cycle) + 6), x, direction, str(int(t) + 100_000), *rest])
+            more = [later(*row.split(",")) for row in table.read_text().splitlines()[1:]]
+            for lines, words in (([*rows, *more], f"it holds {len(rows)} of these {len(rows) + len(more)} readings already, of campaign 1"),
+                                 (rows[:-5], f"it holds {len(rows) - 5} of these")):
+                table.write_text("\n".join([head, *lines]) + "\n")
+                refused = run()
+                self.assertEqual(refused.returncode, 2)
+                self.assertIn(words, refused.stderr)
+            table.write_text("\n".join([head, *more]) + "\n")
+            self.assertEqual(run().returncode, 0)
+
+    def test_a_repaired_machine(self):
+        """A reversal of 3 um in the first week, and none in the next two: it was shown, and the weeks disagree about its size."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for seed, what in ((1, "reversal"), (2, "nothing"), (3, "nothing")):
+                axis.write(folder, what, seed)
+                (folder / "s.toml").write_text(axis.scenario(True) + weeks.STATED)
+                said = subprocess.run([GUMSHOE, "trace", "s.toml", "--append", "h.h5", "--json", "v.json", "--force"], cwd=folder, capture_output=True, text=True)
+                self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertRegex(said.stdout, r"for reversal: it was shown after campaign 1 \(\S+ to 1\); the campaigns disagree about its size")
+            one, = (e for e in json.loads((folder / "v.json").read_text())["history"]["effects"] if e["name"] == "reversal")
+            size, = one["quantities"]
+            self.assertLess(abs(size["last"]), 4 * size["last_u"])
+            self.assertLess(one["agreement"], 1e-3)
+            self.assertEqual(one["peak"], 1)
 
     def test_the_file(self):
         with tempfile.TemporaryDirectory() as name:

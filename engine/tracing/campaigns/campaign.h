@@ -33,6 +33,7 @@ struct Campaign {
   /// What distinguishes models of one name that scenarios describe, one in a line: title, equations and axes. Empty for a
   /// model of the catalogue, and in histories of older versions.
   std::string model_equations = {};
+  std::vector<double> rows = {}; ///< digest of each reading, in the order given; empty in histories of older versions
 };
 
 } // namespace gumshoe::tracing

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 namespace gumshoe::tracing {
@@ -32,6 +33,11 @@ struct Belief {
   double noise = 1; ///< scale of the last campaign's noise: the one expected of the next
   double log_e = 0;
   int campaigns = 0;
+  struct One {
+    Vector size;
+    Matrix information; ///< in absolute units
+  };
+  std::vector<One> each; ///< what every campaign says alone
 };
 
 /// ln of the ratio of the densities, sizes being normal about `mean` in units of the noise's scale.
@@ -71,6 +77,21 @@ void add(Belief& belief, const Score& s, const Campaign& c) {
   belief.precision = precision;
   belief.noise = std::sqrt(variance);
   ++belief.campaigns;
+  belief.each.push_back({size, gained});
+}
+
+/// Cochran's test of one size in all campaigns.
+double agreement(const std::vector<Belief::One>& each) {
+  if (each.size() < 2) return 1;
+  const Index n = each[0].size.size();
+  Matrix information = Matrix::Zero(n, n);
+  Vector sum = Vector::Zero(n);
+  for (const auto& one : each) information += one.information, sum += one.information * one.size;
+  const Vector mean = information.ldlt().solve(sum);
+  double squares = 0;
+  for (const auto& one : each) squares += (one.size - mean).dot(one.information * (one.size - mean));
+  const double freedom = static_cast<double>(n) * static_cast<double>(each.size() - 1);
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), std::max(squares, 0.0)));
 }
 
 /// ln of the mean of exponentials.
@@ -94,27 +115,47 @@ EvidenceOverTime evidence_over_time(const std::vector<Campaign>& campaigns) {
     beliefs[s.candidate][s.variant];
     meaning[{s.candidate, s.variant}] = &s;
   }
-  for (const Campaign& c : campaigns)
-    for (const Score& s : c.scores) {
-      const auto known = meaning.find({s.candidate, s.variant});
-      if (known == meaning.end() || known->second->score.size() != s.score.size() || !usable(s, c)) continue;
-      add(beliefs[s.candidate][s.variant], s, c);
-    }
-  std::vector<double> all;
-  for (const auto& [name, variants] : beliefs) {
+  struct Peak {
+    double log_e = -HUGE_VAL;
+    int campaigns = 0;
+  };
+  std::map<std::string, Peak> peaks;
+  const auto log_of = [](const std::map<int, Belief>& variants) {
     std::vector<double> logs;
     for (const auto& [variant, belief] : variants) logs.push_back(belief.log_e);
-    all.push_back(log_mean(logs));
+    return log_mean(logs);
+  };
+  for (std::size_t k = 0; k < campaigns.size(); ++k) {
+    for (const Score& s : campaigns[k].scores) {
+      const auto known = meaning.find({s.candidate, s.variant});
+      if (known == meaning.end() || known->second->score.size() != s.score.size() || !usable(s, campaigns[k])) continue;
+      add(beliefs[s.candidate][s.variant], s, campaigns[k]);
+    }
+    for (const auto& [name, variants] : beliefs)
+      if (Peak& peak = peaks[name]; log_of(variants) > peak.log_e) peak = {log_of(variants), static_cast<int>(k) + 1};
+  }
+  std::vector<double> all;
+  for (const auto& [name, variants] : beliefs) {
+    all.push_back(log_of(variants));
     const auto best = std::ranges::max_element(
         variants, [](const auto& a, const auto& b) { return a.second.log_e < b.second.log_e; });
     const Belief& belief = best->second;
-    EffectEvidence e{name, all.back(), meaning[{name, best->first}]->sizes, belief.mean, {}, belief.campaigns};
-    if (belief.campaigns > 0) e.u = belief.precision.inverse().diagonal().cwiseSqrt();
+    EffectEvidence e;
+    e.candidate = name, e.log_evidence = all.back(), e.campaigns = belief.campaigns;
+    e.sizes = meaning[{name, best->first}]->sizes, e.size = belief.mean;
+    e.log_peak = peaks[name].log_e, e.peak = peaks[name].campaigns;
+    if (belief.campaigns > 0) {
+      e.u = belief.precision.inverse().diagonal().cwiseSqrt();
+      e.last = belief.each.back().size;
+      e.last_u = belief.each.back().information.inverse().diagonal().cwiseSqrt();
+      e.agreement = agreement(belief.each);
+    }
     out.effects.push_back(std::move(e));
   }
   if (all.empty()) return out;
   out.log_overall = log_mean(all);
-  for (EffectEvidence& e : out.effects) e.log_evidence -= std::log(static_cast<double>(all.size()));
+  const double search = std::log(static_cast<double>(all.size()));
+  for (EffectEvidence& e : out.effects) e.log_evidence -= search, e.log_peak -= search;
   std::ranges::stable_sort(out.effects, std::greater{}, &EffectEvidence::log_evidence);
   return out;
 }

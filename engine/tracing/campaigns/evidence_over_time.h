@@ -20,6 +20,10 @@ struct EffectEvidence {
   std::vector<ScoredSize> sizes;
   Vector size, u; ///< of the variant with the most evidence, SI
   int campaigns = 0;
+  double log_peak = 0;  ///< the most that `log_evidence` has been; the bound holds for it, too
+  int peak = 0;         ///< after so many campaigns
+  Vector last, last_u;  ///< by the last campaign that shows it alone, of the same variant
+  double agreement = 1; ///< probability that campaigns of one size differ by more (chi-squared); 1: of one campaign
 };
 
 struct EvidenceOverTime {
