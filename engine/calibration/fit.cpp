@@ -130,9 +130,24 @@ double Fit::freedom() const {
   return static_cast<double>(n_) + data_.pure_freedom - (jacobian * matrix).cwiseProduct(jacobian).sum();
 }
 
+Fit::Alone Fit::alone() const {
+  Alone out{x_, std::vector<double>(p_, 0), 0};
+  if (!defined()) return out;
+  const auto c = least_squares::parameter_covariance(solution_.jacobian, n_, p_, magnitudes());
+  out.freedom = static_cast<double>(n_ - c.rank) + data_.pure_freedom;
+  double squares = data_.pure_error;
+  for (const double r : solution_.residuals) squares += r * r;
+  for (std::size_t j = 0; j < p_ && out.freedom > 0; ++j)
+    if (c.determined[j]) out.u[j] = std::sqrt(c.matrix[j * p_ + j] * squares / out.freedom);
+  return out;
+}
+
 /// For unknown noise with priors or a robust loss: alternates between the scale and the fit until both converge.
 void Fit::find_scale() {
-  if (n_ > p_ || priors_.target.empty()) solve_with(Loss::squared, 1, 1, false);
+  if (n_ > p_ || priors_.target.empty()) {
+    solve_with(Loss::squared, 1, 1, false);
+    alone_ = alone();
+  }
   double sigma = 0;
   for (int turn = 0; turn < 50 && defined(); ++turn) {
     const double next = scale_of_residuals();

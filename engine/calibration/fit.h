@@ -48,6 +48,7 @@ private:
   std::vector<double> stacked() const;
   double variance_factor(Estimate& out, std::size_t rank) const;
   void beyond_priors(Estimate& out) const;
+  void contradicted_priors(Estimate& out) const;
   void outlier(Estimate& out) const;
 
   const propagation::Experiment& experiment_;
@@ -63,6 +64,12 @@ private:
   double sigma_ = 1, cost_before_ = 0;
   int iterations_ = 0, evaluations_ = 0;
   bool scale_settled_ = true;
+  /// The fit without priors, where the noise is not declared: values, u and degrees of freedom. u = 0: not determined.
+  struct Alone {
+    std::vector<double> x, u;
+    double freedom = 0;
+  } alone_;
+  Alone alone() const;
   std::vector<std::string> notes_; ///< of the starts
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include "base/units.h"
@@ -55,6 +56,7 @@ void Fit::remarks(Estimate& out) const {
   for (const Parameter& p : out.parameters)
     if (p.at_limit) out.notes.push_back(p.unknown.name + " is at a limit of its card");
   beyond_priors(out);
+  contradicted_priors(out);
   if (!out.noise_declared && !(out.degrees_of_freedom > 0))
     out.notes.push_back(
         "there are as many unknowns as readings and no declared noise: no standard uncertainties are given");
@@ -79,6 +81,25 @@ void Fit::beyond_priors(Estimate& out) const {
       out.notes.push_back(fmt::format("{} lies outside of what is stated for it, {:.6g} to {:.6g}{}: a prior counts by "
                                       "its mean and standard uncertainty",
                                       x.name, shown(low), shown(high), units::suffix(x.unit)));
+  }
+}
+
+/// Where the noise is not declared, a wrong prior makes it large, and no chi-squared tells: values that the readings
+/// alone give, and that differ from what is stated.
+void Fit::contradicted_priors(Estimate& out) const {
+  constexpr double chance = 1e-4; // of a t: there are seldom more than ten priors
+  for (std::size_t j = 0; j < alone_.x.size(); ++j) {
+    const Unknown& x = unknowns_[j];
+    if (!(x.prior_u > 0) || !(alone_.u[j] > 0)) continue;
+    const double t = std::fabs(alone_.x[j] - x.start) / std::hypot(x.prior_u, alone_.u[j]);
+    if (2 * boost::math::cdf(boost::math::complement(boost::math::students_t(alone_.freedom), t)) >= chance) continue;
+    const auto size = [&](double si) { return units::from_si(si, x.unit, x.si_unit, units::Kind::difference); };
+    out.notes.push_back(fmt::format(
+        "the readings alone give {} = {:.6g}{}, u = {:.2g}, {:.3g} standard uncertainties from what is stated for it, "
+        "{:.6g}{}, u = {:.2g}: one of the two is wrong. The result "
+        "stands between them, and s is too large",
+        x.name, units::from_si(alone_.x[j], x.unit, x.si_unit), units::suffix(x.unit), size(alone_.u[j]), t,
+        units::from_si(x.start, x.unit, x.si_unit), units::suffix(x.unit), size(x.prior_u)));
   }
 }
 

@@ -91,7 +91,7 @@ std::string answer(const Planned& plan) {
   if (plan.met) return plan.count == 0 ? "every goal is met without further readings" : "every goal is met by " + all;
   const bool possible = std::ranges::any_of(plan.goals, [](const GoalReached& g) { return g.possible; });
   return possible ? "within the limits not every goal is met; closest to it: " + all
-                  : "no number of allowed readings meets a goal, so that none is listed; see below";
+                  : "a thousand of each allowed reading meet no goal, so that none is listed; see below";
 }
 
 void print_text(const scenario::Scenario& s, const Planned& plan, const std::string& file) {

@@ -147,7 +147,7 @@ class Compare(Lengths):
         for k, play in enumerate((4, 6)):
             rows = ["cycle,x,direction,d"]
             for cycle in range(6):
-                rows += [f"{cycle},{x},{way}1,{play / 2 * int(way + '1') + 0.3 * math.sin(7.3 * cycle + 1.7 * x + k):.3f}"
+                rows += [f"{cycle},{x},{way}1,{-play / 2 * int(way + '1') + 0.3 * math.sin(7.3 * cycle + 1.7 * x + k):.3f}"
                          for way, xs in (("+", range(0, 500, 50)), ("-", range(450, -1, -50))) for x in xs]
             (self.folder / "play.csv").write_text("\n".join(rows) + "\n")
             (self.folder / "play.toml").write_text(PLAY)

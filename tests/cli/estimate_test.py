@@ -211,6 +211,16 @@ class Estimate(InFolder):
         fit = self.fit(noisy, data=DATA.replace("5.2", "0.0052"))
         self.assertTrue(any("declared noise explains" in n for n in fit["notes"]), fit["notes"])
 
+    def test_a_prior_that_the_readings_contradict_is_told(self):
+        """Without a declared noise it makes s large, and no chi-squared is left to tell."""
+        fine = "x,y\n" + "".join(f"{x},{1.04 + 1.99 * x + 0.001 * (-1) ** x:.4f}\n" for x in range(6))
+        contradicted = lambda fit: [n for n in fit["notes"] if "the readings alone give b = 1.98" in n and "one of the two is wrong" in n]
+        prior = "[quantities.b]\nestimated = true\nvalue = {}\nu = 0.02\n"
+        of_b = LINE[LINE.index("[quantities.b]"):LINE.index("[indications.y]")]
+        self.assertEqual(len(contradicted(self.fit(LINE.replace(of_b, prior.format(1)), data=fine))), 1)
+        self.assertEqual(contradicted(self.fit(LINE.replace(of_b, prior.format(1.97)), data=fine)), [])
+        self.assertEqual(contradicted(self.fit(data=fine)), [])
+
     def test_a_start_at_which_nothing_depends_on_a_quantity(self):
         """exp(-t / tau) has decayed where tau starts a thousand times too short, and the data know it nevertheless."""
         text = LINE.replace('"a + b * x"', '"a * exp(-x / b)"').replace('measurands = { at_10 = "a + 10 * b" }', 'measurands = { tau = "b" }')

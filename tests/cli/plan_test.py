@@ -182,7 +182,7 @@ class Plan(InFolder):
         self.assertIn("no allowed reading separates scale from expansion", answer["goals"][0]["remark"])
         said = self.run_plan().stdout
         self.assertIn("equal at every allowed condition", said)
-        self.assertIn("no number of allowed readings meets a goal", said)
+        self.assertIn("a thousand of each allowed reading meet no goal", said)
 
     def test_u_of_a_mean_is_the_closed_form(self):
         # Four readings of the constant, u = 1 each: sixteen give 0.25.
@@ -203,6 +203,11 @@ class Plan(InFolder):
         self.assertAlmostEqual(json.loads(fit.stdout)["parameters"]["a"]["standard_uncertainty"], 0.25, places=6)
         self.assertAlmostEqual(goal["u_before"], 0.5, places=6)
         self.assertAlmostEqual(goal["u_after"], 0.25, places=6)
+
+    def test_what_a_thousand_of_each_reading_do_not_reach(self):
+        """u falls with the root of their number, and no limit is near: 1 / sqrt(1000) with the four that are there."""
+        answer = self.planned("uncertainties = { a = 0.001 }", "x = 0")
+        self.assertIn(f"1000 of each allowed reading bring u of a to {1 / math.sqrt(1004):.3g}, which is not enough", answer["goals"][0]["remark"])
 
     SHARED = TEXT.replace("b = { value = 0 }", 'b = { value = 0, u = 0.5, per = "setup" }') \
                  .replace('"a + b * x"', '"a + b"')
@@ -287,8 +292,10 @@ class Plan(InFolder):
     def test_trace_finds_it_in_simulated_readings(self):
         strong = SPLIT.replace("alpha = 0.05", "alpha = 0.0001").replace("0.9", "0.99")
         self.write(strong)
+        self.assertIn("--verify 200 counts", self.run_plan().stdout)
         run = self.run_plan("--verify", 4, "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("--verify 200 counts", run.stdout)
         for row in json.loads(run.stdout)["verified"]:
             self.assertEqual(row["sets"], 4)
             self.assertGreaterEqual(row["found"], 3)

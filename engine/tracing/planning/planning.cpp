@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -61,6 +62,7 @@ public:
     for (const Asked& a : goals_) out.goals.push_back(a.said);
     unknowns(out);
     if (settings.verify > 0) out.verified = verify(s_, model_, count_, out.goals, settings);
+    state_what_power_means(out);
     return out;
   }
 
@@ -192,9 +194,14 @@ private:
     if (a.goal.kind == PlanGoal::Kind::uncertainty) {
       const double least = figure(a, all, plenty);
       if (std::isinf(least)) return fmt::format("no allowed reading determines {}", a.said.of);
-      return fmt::format("no number of allowed readings brings u of {} below {:.3g}{}", a.said.of,
-                         units::from_si(least, a.said.unit, a.said.si_unit, units::Kind::difference),
-                         units::suffix(a.said.unit));
+      const std::string u =
+          fmt::format("{:.3g}{}", units::from_si(least, a.said.unit, a.said.si_unit, units::Kind::difference),
+                      units::suffix(a.said.unit));
+      constexpr double falling = 1.05; // of a quarter of the readings, what falls with their root is twice as large
+      const Matrix fewer = information(task_, std::vector<int>(task_.rows.size(), plenty / 4));
+      if (figure(a, fewer, plenty / 4) > falling * least)
+        return fmt::format("{} of each allowed reading bring u of {} to {}, which is not enough", plenty, a.said.of, u);
+      return fmt::format("no number of allowed readings brings u of {} below {}", a.said.of, u);
     }
     if (hidden(a.alone))
       return fmt::format("no allowed reading shows {}: what is estimated explains all of it", a.said.of);
@@ -300,6 +307,25 @@ private:
                           "table tells them apart, with labels = { repeat = \"repeat\" } in [data], and 0 for the "
                           "readings that are there");
     for (const std::size_t setup : open) out.opened.push_back(model_.setups[setup]);
+  }
+
+  /// The power is that of a test of the one effect; a trace looks for all, and keeps readings apart.
+  void state_what_power_means(Planned& out) const {
+    const bool power = std::ranges::any_of(out.goals, [](const GoalReached& g) {
+      return (g.kind == GoalReached::Kind::detect || g.kind == GoalReached::Kind::split) && g.met;
+    });
+    if (power && out.verified.empty())
+      out.notes.push_back(
+          "the power is that of one test of the one effect. gumshoe trace looks for others, too, and "
+          "keeps readings apart to confirm, so that it finds the effect less often: --verify 200 counts");
+    constexpr double chance = 0.01;
+    for (const Verified& v : out.verified)
+      if (const boost::math::binomial found(v.sets, asked_.power); v.found < v.sets && cdf(found, v.found) < chance)
+        out.notes.push_back(
+            fmt::format("gumshoe trace finds {} less often than in {:.0f} % of the sets, the power of one test, "
+                        "because it looks for other "
+                        "effects, too, and keeps readings apart to confirm: ask for more power, or for more readings",
+                        v.of, 100 * asked_.power));
   }
 
   /// Whether the plan has equal readings, or some that there are already.
