@@ -28,19 +28,22 @@ public:
       : s_(s), choose_(*s.choose), settings_(settings), search_(s, settings) {}
 
   Result run() {
-    search_.run();
-    const auto meeting = search_.meeting();
+    search_.run(choose_.target);
+    const auto meeting = search_.meeting(choose_.target);
     const auto least = search_.least();
     r_.reached = !meeting.empty();
     if (meeting.empty() && !least)
       throw InputError("choose: every candidate fails",
-                       fmt::format("more than max_failed_share = {} of its samples", s_.run.max_failed_share));
+                       fmt::format("more than max_failed_share = {} of its samples{}", s_.run.max_failed_share,
+                                   choose_.worst_case ? ", or of those of a case" : ""),
+                       "gumshoe run of the scenario, with the values of one candidate, says of each sample why");
     if (r_.reached) {
       confirm(meeting);
     } else { // fresh numbers may know better than the few of the search
       take(*least, afresh(*least));
       r_.reached = r_.confirmed = r_.probability >= choose_.confirm_probability;
     }
+    if (r_.confirmed) seek_faster();
     r_.neighbours = search_.neighbours(r_.best);
     search_.mark_pareto();
     near();
@@ -105,6 +108,40 @@ private:
     }
   }
 
+  /// The search may have dismissed a faster one by chance. Candidates of one combination of the lists have their
+  /// numbers in common: what fresh ones tell of one, by how much the search is off, holds for all of these.
+  void seek_faster() {
+    constexpr int rounds = 3;
+    for (int round = 0; round < rounds; ++round) {
+      const Figures &rough = asked(search_.candidates()[r_.best]), &fine = asked(r_.fresh);
+      if (!(rough.expanded > 0) || !(fine.expanded > 0)) return;
+      const double sure = 1 - 2 * fine.expanded_se / fine.expanded;
+      const double target = choose_.target * rough.expanded / fine.expanded * sure;
+      search_.run(target);
+      try_faster(search_.meeting(target));
+      if (!try_faster(search_.hopeful(r_.fresh.time))) return;
+    }
+  }
+
+  /// The first few that take less time and were not tried. @return whether one is taken
+  bool try_faster(const std::vector<std::size_t>& candidates) {
+    constexpr int most = 3;
+    int tried = 0;
+    for (const std::size_t i : candidates) {
+      if (tried == most) return false;
+      if (search_.candidates()[i].time >= r_.fresh.time || refuted_.contains(i) || !faster_tried_.insert(i).second)
+        continue;
+      ++tried;
+      Candidate fresh = afresh(i);
+      if (probability(fresh) >= choose_.confirm_probability) {
+        take(i, std::move(fresh));
+        return true;
+      }
+      if (search_.candidates()[i].meets) refuted_.insert(i);
+    }
+    return false;
+  }
+
   /// Whether a candidate failed with fresh numbers, or would: with common numbers one of a U as large as one that
   /// failed.
   bool is_refuted(std::size_t candidate) const {
@@ -117,7 +154,7 @@ private:
     r_.near.resize(choose_.variables.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Candidate& c = all[i];
-      if (!c.meets || is_refuted(i) || c.time > (1 + choose_.near) * all[r_.best].time) continue;
+      if (i != r_.best && (!c.meets || is_refuted(i) || c.time > (1 + choose_.near) * all[r_.best].time)) continue;
       for (std::size_t v = 0; v < r_.near.size(); ++v) {
         Span& span = r_.near[v];
         span.low = r_.near_count == 0 ? c.values[v] : std::min(span.low, c.values[v]);
@@ -227,6 +264,7 @@ private:
   Result r_;
   double failed_ = INFINITY;      ///< least U in the search of a candidate that failed by its U
   std::set<std::size_t> refuted_; ///< candidates that failed
+  std::set<std::size_t> faster_tried_; ///< afresh, because they take less time
 };
 
 /// Four significant digits, and 12000 rather than 1.2e+04.

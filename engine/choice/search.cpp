@@ -40,13 +40,18 @@ Candidate Search::judged(Candidate c, std::vector<Figures> figures) const {
   c.worst = 0; // NaN, no value at all, is the worst
   for (std::size_t k = 1; k < c.cases.size(); ++k)
     if (!(c.cases[k].expanded <= c.cases[c.worst].expanded)) c.worst = k;
-  c.meets = usable(c) && asked(c).expanded <= choose_.target;
-  if (choose_.bias) {
-    c.meets = c.meets && std::fabs(c.average.mean) <= *choose_.bias;
-    for (const Figures& f : c.cases)
-      if (choose_.worst_case) c.meets = c.meets && std::fabs(f.left) <= *choose_.bias;
-  }
+  c.meets = within(c, choose_.target);
   return c;
+}
+
+bool Search::within(const Candidate& c, double target) const {
+  bool out = usable(c) && asked(c).expanded <= target;
+  if (choose_.bias) {
+    out = out && std::fabs(c.average.mean) <= *choose_.bias;
+    for (const Figures& f : c.cases)
+      if (choose_.worst_case) out = out && std::fabs(f.left) <= *choose_.bias;
+  }
+  return out;
 }
 
 bool Search::usable(const Candidate& c) const {
@@ -105,10 +110,10 @@ void Search::attempt(const std::vector<Place>& places) {
               });
 }
 
-std::vector<std::size_t> Search::meeting() const {
+std::vector<std::size_t> Search::meeting(double target) const {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
-    if (candidates_[i].meets) out.push_back(i);
+    if (within(candidates_[i], target)) out.push_back(i);
   std::ranges::stable_sort(out, [&](std::size_t a, std::size_t b) {
     const Candidate &x = candidates_[a], &y = candidates_[b];
     return x.time != y.time ? x.time < y.time : asked(x).expanded < asked(y).expanded;
@@ -128,19 +133,39 @@ std::optional<std::size_t> Search::least() const {
   return best;
 }
 
-std::vector<Place> Search::centres() const {
+Place Search::combination(std::size_t candidate) const {
+  Place out = places_[candidate];
+  for (std::size_t v = 0; v < out.size(); ++v)
+    if (choose_.variables[v].range) out[v] = 0;
+  return out;
+}
+
+std::vector<std::size_t> Search::hopeful(double faster_than) const {
+  std::map<Place, std::size_t> best;
+  const auto u = [&](std::size_t i) { return asked(candidates_[i]).expanded; };
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Figures& f = asked(candidates_[i]);
+    if (candidates_[i].time >= faster_than || !within(candidates_[i], choose_.target + 2 * f.expanded_se)) continue;
+    const auto [it, fresh] = best.try_emplace(combination(i), i);
+    if (!fresh && u(i) < u(it->second)) it->second = i;
+  }
+  std::vector<std::size_t> out;
+  for (const auto& [lists, i] : best) out.push_back(i);
+  std::ranges::stable_sort(out, {}, u);
+  return out;
+}
+
+std::vector<Place> Search::centres(double target) const {
   std::map<Place, std::size_t> best; // by the lists' places
   const auto better = [&](const Candidate& a, const Candidate& b) {
-    if (a.meets != b.meets) return a.meets;
-    if (a.meets && a.time != b.time) return a.time < b.time;
+    const bool meets = within(a, target);
+    if (meets != within(b, target)) return meets;
+    if (meets && a.time != b.time) return a.time < b.time;
     return asked(a).expanded < asked(b).expanded;
   };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (!usable(candidates_[i])) continue;
-    Place lists = places_[i];
-    for (std::size_t v = 0; v < lists.size(); ++v)
-      if (choose_.variables[v].range) lists[v] = 0;
-    const auto [it, fresh] = best.try_emplace(lists, i);
+    const auto [it, fresh] = best.try_emplace(combination(i), i);
     if (!fresh && better(candidates_[i], candidates_[it->second])) it->second = i;
   }
   std::vector<std::size_t> order;
@@ -151,7 +176,8 @@ std::vector<Place> Search::centres() const {
   return out;
 }
 
-void Search::run() {
+void Search::run(double target) {
+  round_ = 0;
   attempt(coarse_places(scenario_));
   if (candidates_.empty())
     throw InputError("choose: no combination of the variables is possible",
@@ -160,7 +186,7 @@ void Search::run() {
   for (round_ = 1; ranges && round_ <= choose_.refinements; ++round_) {
     std::vector<Place> at;
     for (std::size_t move = 0; move < most_moves; ++move) {
-      const auto next = centres();
+      const auto next = centres(target);
       if (next == at) break;
       at = next;
       std::vector<Place> places;

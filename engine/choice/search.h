@@ -24,14 +24,18 @@ public:
   /// Every combination of lists and coarse grids; then `refinements` rounds, each halving the ranges' steps: about the
   /// best candidate of each combination of the lists' values (the fastest that meets the target, else the one of least
   /// U; the eight most promising) all neighbours are tried, until the best stay where they are.
-  void run();
+  /// @param target  the one that is asked for, or one by which these samples' errors are allowed for
+  void run(double target);
   /// One step away from a candidate, in one variable: of a range a quarter of a step of the coarse grid, of a list the
   /// next value either way, of the evaluation every other. Tried if not known.
   std::vector<Neighbour> neighbours(std::size_t candidate);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
-  /// Those that meet the target, the fastest first; of equal times the one of less U.
-  std::vector<std::size_t> meeting() const;
+  /// Those that meet a target, the fastest first; of equal times the one of less U.
+  std::vector<std::size_t> meeting(double target) const;
+  /// Of each combination of the lists' values the one of least U that takes less than so many seconds, if U is within
+  /// two standard errors of the target; the least U first.
+  std::vector<std::size_t> hopeful(double faster_than) const;
   /// The one of least U; empty if all failed.
   std::optional<std::size_t> least() const;
   /// Those that nothing beats in both time and U; marks them.
@@ -48,8 +52,12 @@ private:
   void attempt(const std::vector<Place>& places);
   void skip(const Place& place);
   std::vector<double> values_at(const Place& place) const;
-  std::vector<Place> centres() const;
+  std::vector<Place> centres(double target) const;
+  /// Values of the lists alone.
+  Place combination(std::size_t candidate) const;
   bool usable(const Candidate& c) const;
+  /// Whether it is usable, and U and the bias are small enough.
+  bool within(const Candidate& c, double target) const;
   const Figures& asked(const Candidate& c) const { return choice::asked(c, choose_.worst_case); }
 
   const scenario::Scenario& scenario_;

@@ -91,9 +91,11 @@ void print_text(const Result& r, const std::string& file) {
   }
   for (const auto& c : r.compared) {
     const Figures& f = asked(c.candidate, worst);
-    std::cout << fmt::format("compared, {} ({}): {}, U = {}, bias {}; {:.3g} times as long as the recommended one\n",
-                             c.name, c.setting, choice::duration(c.candidate.time), width(r, f.expanded, f.expanded),
-                             width(r, c.candidate.average.mean, f.expanded), c.candidate.time / r.fresh.time);
+    std::cout << fmt::format("compared, {} ({}): {}, U = {}, bias {}{}; {:.3g} times as long as {}\n", c.name,
+                             c.setting, choice::duration(c.candidate.time), width(r, f.expanded, f.expanded),
+                             width(r, c.candidate.average.mean, f.expanded),
+                             c.candidate.meets ? "" : ", misses the target", c.candidate.time / r.fresh.time,
+                             r.reached ? "the recommended one" : "that of the smallest U");
   }
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < r.candidates.size(); ++i)
@@ -109,8 +111,9 @@ void print_text(const Result& r, const std::string& file) {
     std::cout << fmt::format("  {:>12}  {:>12}  {}{}\n", choice::duration(c.time),
                              width(r, asked(c, worst).expanded, asked(c, worst).expanded),
                              choice::in_words(r, c.values),
-                             front[k] == r.best ? "  <- recommended"
+                             front[k] == r.best ? r.reached ? "  <- recommended" : "  <- smallest U"
                              : c.refuted        ? "  not confirmed by fresh samples"
+                             : !c.meets         ? "  misses the target"
                                                 : "");
   }
   for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
