@@ -293,8 +293,20 @@ private:
   void state(VolumeMap& out) const {
     const VolumePoint& worst = out.points[out.largest];
     const auto text = [](double x) { return with_suitable_unit(x, "mm", "m"); };
-    out.statement = fmt::format("The largest error is {} (u = {}), at {}.", text(worst.length), text(worst.u_length),
-                                place(out.largest));
+    if (worst.length == 0 && worst.u_length == 0) {
+      out.statement = "There is no error: the scenario states none of an axis, and no uncertain one.";
+      return;
+    }
+    const double least = std::ranges::min_element(out.points, {}, &VolumePoint::length)->length;
+    const double by_chance = 4 * worst.u_length / std::sqrt(static_cast<double>(out.samples));
+    const bool alike = out.points.size() > 1 && by_chance > 0 && worst.length - least <= by_chance;
+    out.statement =
+        fmt::format("The {} {} (u = {}), at {}.",
+                    alike ? fmt::format("error is as large at all {} points:", out.points.size()) : "largest error is",
+                    text(worst.length), text(worst.u_length), place(out.largest));
+    const double mean = std::hypot(worst.error_x, worst.error_y, worst.error_z);
+    if (mean < worst.length / 2)
+      out.statement += fmt::format(" This is the mean length of an uncertain error, whose mean is {}.", text(mean));
     if (!out.shares.empty() && out.shares[0].error != 0)
       out.statement +=
           fmt::format(" {} causes the largest part of it, {}.", out.shares[0].name, text(out.shares[0].error));

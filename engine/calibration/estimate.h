@@ -47,6 +47,7 @@ struct Estimate {
   least_squares::Loss loss = least_squares::Loss::squared;
   double loss_width = 0; ///< standard deviations
   least_squares::Report solver;
+  std::vector<std::string> held; ///< uncertain quantities that are not fitted: their uncertainty is in no result
   std::vector<std::string> notes;
 };
 

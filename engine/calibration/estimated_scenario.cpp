@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "calibration/scenario_text.h"
 
@@ -45,9 +46,11 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
              "there are no redundant readings and no declared noise", "repeatability = { s = \"...\" }");
   }
   ScenarioText out(s, folder);
-  const std::string source =
-      fmt::format("{}{}, {} readings, hash of scenario and data {}", estimate_source,
-                  std::filesystem::path(s.file).filename().string(), estimate.rows.size(), s.hash);
+  const std::string source = fmt::format(
+      "{}{}, {} readings{}, hash of scenario and data {}", estimate_source,
+      std::filesystem::path(s.file).filename().string(), estimate.rows.size(),
+      estimate.held.empty() ? "" : fmt::format(", without the uncertainty of {}", fmt::join(estimate.held, ", ")),
+      s.hash);
   const double freedom = estimate.noise_declared ? estimate.noise_freedom : estimate.degrees_of_freedom;
   const bool t = s.estimate.t && std::isfinite(freedom);
   std::vector<std::size_t> uncertain;

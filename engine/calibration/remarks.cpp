@@ -39,10 +39,11 @@ void Fit::remarks(Estimate& out) const {
     const auto& quantity = s.quantities[q];
     const double u = quantity.estimated ? 0 : uncertainty_of(quantity);
     // A quantity of the measurands alone has its uncertainty in the run of the written scenario.
-    if (u > 0 && simulation_.depends_on(x_.data(), q, u))
-      out.notes.push_back(quantity.name +
-                          " is held at its estimate, so that its uncertainty is not in the result (mark it "
-                          "estimated to include it)");
+    if (!(u > 0) || !simulation_.depends_on(x_.data(), q, u)) continue;
+    out.held.push_back(quantity.name);
+    out.notes.push_back(quantity.name +
+                        " is held at its estimate, so that its uncertainty is not in the result (mark it "
+                        "estimated to include it)");
   }
   if (!out.indistinguishable.empty())
     for (std::size_t c = 0; c < card.conditions.size() && s.readings.size() > 1; ++c) {

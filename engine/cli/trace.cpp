@@ -84,6 +84,7 @@ std::string signed_verdict(const Rounds& rounds, const History& history, const s
                                  {"after", number(r.rms.after)},
                                  {"holdout_before", number(r.rms.holdout_before)},
                                  {"holdout_after", number(r.rms.holdout_after)},
+                                 {"holdout_noise", number(r.rms.holdout_noise)},
                                  {"holdout_after_winsorised", number(r.rms.holdout_after_winsorised)},
                                  {"noise", number(r.rms.noise)},
                                  {"replicate_floor", number(r.rms.replicate_floor)},

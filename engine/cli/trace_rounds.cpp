@@ -98,8 +98,9 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
 }
 
 std::string table(const std::vector<Round>& rounds) {
-  std::string out = fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   added\n", "round", "before",
-                                "after", "held out", "after", "noise", "floor");
+  // What is held out has a noise of its own: the fit has not taken its part of these readings.
+  std::string out = fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   added\n", "round",
+                                "before", "after", "noise", "floor", "held out", "after", "noise");
   for (std::size_t k = 0; k < rounds.size(); ++k) {
     const tracing::Rms& r = rounds[k].rms;
     const auto show = [&](double si) { // all in one unit
@@ -108,9 +109,9 @@ std::string table(const std::vector<Round>& rounds) {
     const std::string added = rounds[k].vetoed          ? "nothing: the held-out readings are not predicted better"
                               : rounds[k].added.empty() ? "nothing"
                                                         : fmt::format("{}", fmt::join(rounds[k].told, "; "));
-    out += fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   {}\n", k + 1, show(r.before),
-                       show(r.after), show(r.holdout_before), show(r.holdout_after), show(r.noise),
-                       show(r.replicate_floor), added);
+    out += fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   {}\n", k + 1, show(r.before),
+                       show(r.after), show(r.noise), show(r.replicate_floor), show(r.holdout_before),
+                       show(r.holdout_after), show(r.holdout_noise), added);
   }
   return out;
 }

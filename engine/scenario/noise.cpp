@@ -58,8 +58,11 @@ public:
     } else if (scoped) {
       refuse_shared(further, entries);
     }
-    for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
     const auto of_readings = [](const Component& c) { return std::ranges::find(c.per, "reading") != c.per.end(); };
+    if (std::ranges::all_of(entries, [](const Entry& e) { return e.components.empty(); }) &&
+        std::ranges::any_of(further, of_readings))
+      note_means();
+    for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
     if (repeatability.kind == Repeatability::Kind::none && own.empty() && std::ranges::none_of(further, of_readings))
       out.display_alone = step.value_or(0);
     if (entries.front().components.empty())
@@ -69,6 +72,16 @@ public:
   }
 
 private:
+  /// Where nothing is stated but components, the mean of many equal readings has no less noise than one.
+  void note_means() {
+    const auto most = std::ranges::max_element(readouts_.used, {}, &Readouts::repeats);
+    if (most == readouts_.used.end() || most->repeats < 2) return;
+    note(fmt::format("equal labels and conditions make one reading, of up to {} indications here, whose mean has the "
+                     "noise of the components, however many they are: state u if each indication has it anew, or tell "
+                     "them apart by repeats = \"apart\" in [data]",
+                     most->repeats));
+  }
+
   /// An expanded uncertainty has a coverage factor, which is a component's.
   void refuse_expanded() {
     for (const Member& m : table_.node().members)

@@ -211,6 +211,19 @@ class Estimate(InFolder):
         fit = self.fit(noisy, data=DATA.replace("5.2", "0.0052"))
         self.assertTrue(any("declared noise explains" in n for n in fit["notes"]), fit["notes"])
 
+    def test_what_is_held_stands_in_the_written_scenario(self):
+        """Whoever runs it reads the budget, and not the notes of the fit."""
+        text = LINE.replace('"a + b * x"', '"a + b * x + o"').replace("[indications.y]", "[quantities.o]\nvalue = 0\nu = 0.5\n[indications.y]")
+        self.assertTrue(any(n.startswith("o is held at its estimate") for n in self.fit(text)["notes"]))
+        self.assertIn("5 readings, without the uncertainty of o, hash", (self.folder / "results/line.estimated.toml").read_text())
+
+    def test_components_of_means_are_told(self):
+        """Four rows of one x are one reading; its mean has the component's noise, not half of it."""
+        data = "x,y\n" + "".join(f"{x},{1.04 + 1.99 * x + 0.1 * k:.3f}\n" for x in range(4) for k in range(4))
+        said = lambda more: [n for n in self.fit(LINE + more, data=data)["notes"] if "of up to 4 indications here" in n]
+        self.assertEqual(len(said('components = [{ u = 0.2, per = "reading" }]\n')), 1)
+        self.assertEqual(said("repeatability = { s = 0.2 }\n"), [])
+
     def test_a_prior_that_the_readings_contradict_is_told(self):
         """Without a declared noise it makes s large, and no chi-squared is left to tell."""
         fine = "x,y\n" + "".join(f"{x},{1.04 + 1.99 * x + 0.001 * (-1) ** x:.4f}\n" for x in range(6))

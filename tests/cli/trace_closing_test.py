@@ -310,7 +310,7 @@ class Closing(InFolder):
                 self.assertAlmostEqual(b[before] / a[after], 1, delta=0.02)
         self.traced_again()
         said = self.program("trace", "s.toml", "--loop", "5")
-        self.assertRegex(said, r"round +before +after +held out +after +noise +floor +added\n1 .*trigger_latency.*\n(.*\n)*\d .*nothing\n")
+        self.assertRegex(said, r"round +before +after +noise +floor +held out +after +noise +added\n1 .*trigger_latency.*\n(.*\n)*\d .*nothing\n")
 
     def test_stated_effect_gets_its_size(self):
         film = '[stated_effects.film]\nindication = "spindle_z"\nformula = "1 / feed"\nunit = "um*mm/min"\nmeaning = "coolant"'

@@ -57,6 +57,15 @@ class Volume(InFolder):
         self.assertAlmostEqual(out["causes"][0]["error"], 0.3 * g, delta=1e-11)
         self.assertRegex(out["statement"], r"^The largest error is 0.030 mm \(u = 0 mm\), at X .* mm, Y -?300 mm, Z .* mm\. E_C0Y causes the largest part of it, 0.030 mm\.$")
 
+    def test_a_map_of_nothing_or_of_what_is_uncertain_says_so(self):
+        none = self.map(THREE + CUBE)
+        self.assertEqual(none["statement"], "There is no error: the scenario states none of an axis, and no uncertain one.")
+        # |N(0, u)| has the mean u sqrt(2 / pi), where nothing is wrong but uncertain.
+        uncertain = self.map(THREE + '[quantities]\nE_C0Y = { value = "0 deg", u = "0.001 deg" }\n' + CUBE)
+        worst = uncertain["points"][uncertain["largest"]]
+        self.assertAlmostEqual(worst["length"], math.sqrt(2 / math.pi) * 0.3 * 0.001 * DEG, delta=0.03 * worst["length"])
+        self.assertRegex(uncertain["statement"], r"^The largest error is .* This is the mean length of an uncertain error, whose mean is ")
+
     def test_mean_and_u_against_plain_matrices_and_linear_propagation(self):
         """Seven errors of a five-axis machine with a table that tilts and a point off its axes."""
         errors = {"E_X0B": (30e-6, 4e-6), "E_A0B": (5e-5, 1e-5), "E_Y0C": (-20e-6, 3e-6), "E_B0C": (-4e-5, 2e-5), "E_C0Y": (6e-5, 1e-5),
