@@ -38,6 +38,9 @@ void catch_interrupts() {
   action.sa_handler = on_signal; // without SA_RESTART: a wait for a child ends, too
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction earlier = {};
+  if (sigaction(SIGHUP, nullptr, &earlier) == 0 && earlier.sa_handler != SIG_IGN) // nohup
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 void when_interrupted(const char* sentence) { rest = sentence; }

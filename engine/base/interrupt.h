@@ -1,6 +1,7 @@
 #pragma once
-/// SIGINT and SIGTERM end every command: where work can stop it stops, and after two seconds, or at the second signal,
-/// the process ends whatever runs in it (a plugin that never returns).
+/// SIGINT, SIGTERM and, but under nohup, SIGHUP (a terminal that is closed) end every command: where work can stop it
+/// stops, and after two seconds, or at the second signal, the process ends whatever runs in it (a plugin that never
+/// returns).
 #include <atomic>
 #include <exception>
 
@@ -12,7 +13,7 @@ public:
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// From here on the two signals are caught. Further calls change nothing.
+/// From here on these signals are caught. Further calls change nothing.
 void catch_interrupts();
 
 /// What remains of the work, as one sentence or two; said after "interrupted.". A literal: signal handlers read it.

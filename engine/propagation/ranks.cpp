@@ -110,7 +110,7 @@ std::unique_ptr<Ranks> Ranks::join() {
   for (const auto& v : variables) unsetenv(v.rank);
   if (!ranks
            ->first()) // rank 0 says when to stop; a handler, because programs that a model starts would inherit SIG_IGN
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) {});
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) {});
   return ranks;
 }
 

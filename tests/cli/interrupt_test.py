@@ -1,4 +1,4 @@
-"""SIGINT and SIGTERM end every command within two seconds, whatever runs in it, and the program says what remains.
+"""SIGINT, SIGTERM and SIGHUP end every command within two seconds, whatever runs in it, and the program says what remains.
 
 usage: interrupt_test.py path/to/gumshoe [unittest options]
 """
@@ -101,7 +101,7 @@ class Interrupt(InFolder):
         (self.folder / "model.py").write_text(MODEL)
         (self.folder / "s.toml").write_text(SLEEPER)
         pid = self.folder / "pid"
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(number):
                 pid.unlink(missing_ok=True)
                 seconds, said = self.interrupted(["run", "s.toml", "--out", "r.h5"], number, pid.exists, 0.2)
@@ -111,6 +111,17 @@ class Interrupt(InFolder):
         (self.folder / "slow").write_text("")
         pid.unlink(missing_ok=True)
         self.assertLess(self.interrupted(["check", "s.toml"], signal.SIGINT, pid.exists, 0.2)[0], LIMIT + SLACK)
+
+    def test_nohup_goes_on(self):
+        (self.folder / "s.toml").write_text(STUDY.replace("STUDY", "sobol = 1048576"))
+        process = subprocess.Popen(["nohup", GUMSHOE, "run", "s.toml", "--threads", "1", "--out", "n.h5"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        time.sleep(0.3)
+        self.assertIsNone(process.poll(), "ended before the signal")
+        process.send_signal(signal.SIGHUP)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0)
 
     @unittest.skipUnless(CC, "no C compiler")
     def test_a_plugin_that_never_returns(self):
