@@ -4,7 +4,7 @@ import types
 
 import markupsafe
 
-from . import certificate, convergence, csv_tables, explain, figures, profile, profile_figures, reduce
+from . import certificate, convergence, csv_tables, explain, failed, figures, profile, profile_figures, reduce
 from . import region_figures, rounding, scatter, sensitivity_figures, spatial_figures, studies, tables, workbook
 
 OPEN = 2      # outputs shown in full; the others are folded
@@ -53,7 +53,8 @@ def sections(r):
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
             side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
             scatter=picture(full, scatter.figure, r.path, output, of.budget, f"x{k}"),
-            why=explain.why(of.budget, of.sobol, of.shapley, u),
+            why=explain.why(of.budget, of.sobol, of.shapley, u, failed.reason(output)),
+            condition=failed.condition(output, len(r.outputs) > 1),
             pairs=studies.pairs(of.sobol) if of.sobol and of.sobol.pairs else None,
             shapley_figure=picture(full and of.shapley and of.sobol, sensitivity_figures.side_by_side, None, None,
                                    of.shapley, f"h{k}"),
@@ -137,7 +138,7 @@ def contents(r):
     along = list(profiles(r))
     return dict(
         spatial=spatial(r), profiles=along, asked=[studies.target(t) for t in r.targets], left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
-        diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
+        left_out_samples=failed.explanation(r), diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
         method=METHODS.get(r.method, r.method), samples=rounding.thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r, set().union(*(p.names for p in along))),
