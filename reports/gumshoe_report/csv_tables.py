@@ -129,7 +129,7 @@ def trace(t):
                          for f in t.findings for q in f.quantities],
             "compensation": [{"finding": k + 1, **one} for k, f in enumerate(t.findings) if not rejected(f)
                              for table in f.tables for one in compensation.lines(table)],
-            "candidates": [line("trace/candidates", c) for c in t.candidates],
+            "candidates": [{**line("trace/candidates", c), "correlation": c.correlation or ""} for c in t.candidates],
             "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
             "of_indications": [line("trace/of_indications", e) for e in t.of_indications],
             "anomalous_blocks": [line("trace/anomalous_blocks", b) for b in t.anomalous_blocks],

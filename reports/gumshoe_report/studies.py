@@ -215,33 +215,6 @@ def unit_after(row):
     return after(row.display_units)
 
 
-def target(t):
-    size = lambda value: significant(spread(t, value)) + unit_after(t) if math.isfinite(value) else NONE
-    def allowed(r, value):
-        return "any" if value == math.inf else significant(spread(r, value)) if math.isfinite(value) else "none"
-    lines = [types.SimpleNamespace(
-        quantity=r.quantity, unit=unit_text(r.display_units) or "1", present=significant(spread(r, r.present)),
-        allowed=allowed(r, r.allowed), gum=allowed(r, r.allowed_gum), cost=significant(r.cost, 3),
-        cheapest=significant(spread(r, r.cheapest))) for r in t.rows]
-    alone = [r.quantity for r in t.rows if r.allowed == r.allowed and r.allowed < r.present]
-    if not math.isfinite(t.present):
-        text = f"Wanted: U = {size(t.wanted)}."
-    elif t.present <= t.wanted:
-        text = (f"The target is already met: U = {size(t.present)} does not exceed {size(t.wanted)}. The allowed values show "
-                "how far each quantity may grow.")
-    elif alone:
-        text = (f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is enough: "
-                f"{', '.join(alone)}.")
-    else:
-        text = f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is not enough."
-    if math.isfinite(t.reached):
-        text += f" The cheapest combination reaches {size(t.reached)} at {significant(t.cost_ratio, 3)} times the present cost."
-    cheapest = [f"{r.quantity} {significant(spread(r, r.cheapest))}{unit_after(r)} ({significant(spread(r, r.present))} now)"
-                for r in t.rows if math.isfinite(r.cheapest) and r.cheapest < r.present]
-    return types.SimpleNamespace(output=t.output, text=text, statement=t.statement, rows=lines, cheapest=", ".join(cheapest),
-                                 has_cost=any(math.isfinite(r.cost) for r in t.rows))
-
-
 def stopping(s):
     rules = {"jcgm_101": "JCGM 101, clause 7.9", "stein": "two-stage rule (Stein)"}
     count = lambda n: f"{n:,}".replace(",", "\u202f") if n else "not reached"
