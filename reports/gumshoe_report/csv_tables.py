@@ -146,7 +146,7 @@ def volume(v):
     points = [{**{f"{a.name}_{a.display_units}": x for a, x in zip(v.axes, at)}, **line("volume/points", p), "unit": "m"}
               for at, p in zip(itertools.product(*map(commands, v.axes)), v.points)]
     return {"axes": [line("volume/axes", a) for a in v.axes], "points": points,
-            "causes": [line("volume/causes", s) for s in v.shares]}
+            "causes": [{**line("volume/causes", s), "error_unit": "m"} for s in v.shares]}
 
 
 def text(lines):

@@ -136,6 +136,7 @@ def distribution(output, budget, p, name):
             ("shortest", to_axis([output.shortest_low, output.shortest_high]), ORANGE, "-")]
     u = budget.combined_standard_uncertainty if budget is not None and budget.applicable else 0
     spread = float(to_axis(budget.estimate + u) - to_axis(budget.estimate)) if u > 0 else 0
+    highest = top.get_ylim()[1] / 1.05
     if spread > 0:  # u may be smaller than what two numbers of double precision differ by
         x = np.linspace(*limits, 400)
         centre = float(to_axis(budget.estimate))
@@ -144,10 +145,12 @@ def distribution(output, budget, p, name):
         ends = budget.estimate + np.array([-1, 1]) * budget.expanded_uncertainty
         rows.append(("GUM  y ± U", to_axis(ends), INK, (0, (4, 2))))
         peak = 1 / (spread * math.sqrt(2 * math.pi))
-        top.set_ylim(0, 1.18 * max(peak, top.get_ylim()[1] / 1.05))  # room for the curve and the legend
+        highest = max(peak, highest)
+    if math.isfinite(output.estimate):  # unlike the bars of a discrete distribution
+        top.axvline(float(to_axis(output.estimate)), color=INK, linewidth=1, linestyle=(0, (1, 2)), ymax=0.94, label="estimate")
+    top.set_ylim(0, 1.18 * highest)  # room for the curve and the legend
+    if top.get_legend_handles_labels()[0]:
         top.legend(loc="upper right", frameon=False, fontsize=8)
-    if math.isfinite(output.estimate):
-        top.axvline(float(to_axis(output.estimate)), color=BLUE, linewidth=0.8, ymax=0.94)
     rows = [row for row in rows if np.isfinite(row[1]).all()]
     for k, (text, ends, colour, style) in enumerate(rows):
         low.plot(ends, [-k, -k], color=colour, linewidth=1.8, linestyle=style)

@@ -144,7 +144,7 @@ def contents(r):
         spatial=spatial(r), profiles=along, asked=[of_target(t, by_output(r.budgets, "output")) for t in r.targets], left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
         left_out_samples=failed.explanation(r), diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
-        kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
+        tail=rounding.probability((1 - r.coverage_probability) / 2), kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
         method=METHODS.get(r.method, r.method), samples=rounding.thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r, set().union(*(p.names for p in along))),
         constants=[tables.constant_text(o) for o in r.outputs if o not in shown and not getattr(o, "diagnostic", 0)], numbered=tables.numbered(r),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],

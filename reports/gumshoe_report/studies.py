@@ -6,6 +6,7 @@ from .rounding import after, decimals, degrees_of_freedom, finer, fixed, percent
 from .tables import point, spread
 
 NONE = "–"
+RULES = {"simple_acceptance": "simple acceptance", "iso_14253_1": "ISO 14253-1", "ilac_g8": "ILAC-G8", "stated": "the stated guard band"}
 EXACT = 1e-8  # a probability without samples is stated to this
 
 
@@ -205,7 +206,7 @@ def conformity(c, output):
         risks.append(("global producer’s risk R_P", chance(c.global_producer_risk, get("global_producer_risk_se"), least),
                       "the probability that an item of the process conforms and is rejected by such a measurement"))
     return types.SimpleNamespace(
-        name=c.name, unit=unit_text(c.display_units), estimate=show(c.estimate), accepted=bool(c.accepted),
+        name=c.name, rule=RULES.get(c.rule, ""), unit=unit_text(c.display_units), estimate=show(c.estimate), accepted=bool(c.accepted),
         tolerance=at("lower", "upper"), acceptance=at("acceptance_lower", "acceptance_upper"),
         guard=fixed(spread(c, c.guard_band), places), guarded=c.guard_band != 0, statement=c.statement,
         p_c=chance(c.conformance_probability, c.conformance_probability_se, least), risks=risks)

@@ -52,12 +52,14 @@ def summary_row(o):
     return types.SimpleNamespace(
         name=o.name, unit=unit_text(o.display_units), estimate=show(o.estimate),
         called="median" if getattr(o, "estimate_is_median", 0) else "estimate",
-        u=fixed(spread(o, o.standard_uncertainty), places), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
+        u=fixed(spread(o, o.standard_uncertainty), places), U=significant(spread(o, getattr(o, "expanded_uncertainty", math.nan))),
+        k=fixed(getattr(o, "coverage_factor", math.nan), 2), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
         shortest=(show(o.shortest_low), show(o.shortest_high)),
         failed=f"{o.failed} of {total}" if o.failed else "",
         rank=of_failures(o, show) if o.failed else "",
         estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
         skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning,
+        said=bool(o.warning) and o.warning.partition(": ")[2] in o.statement,
         tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
 
 
