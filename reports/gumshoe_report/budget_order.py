@@ -2,7 +2,8 @@
 import math
 import types
 
-ALIKE = 4  # components of many readings that each have a row of their own
+ALIKE = 4      # components of many readings that each have a row of their own
+BEYOND = 0.01  # by which an index must exceed a share of the budget to count in its place
 
 
 def alike(rows):
@@ -46,7 +47,7 @@ class Group:
         """By which groups are ordered: the share of the budget, unless samples show more; the index where there is none."""
         contribution = math.hypot(*finite(c.contribution for c in self.rows))
         if math.isfinite(self.share):
-            return max(self.share, self.resolved()), contribution
+            return self.resolved() if self.resolved() > self.share + BEYOND else self.share, contribution
         return max(finite([self.first]) + [0.0]), contribution
 
 

@@ -40,12 +40,13 @@ def linear(b, sobol):
 
 
 class Part:
-    """A quantity with its share of the variance, and the share that is left without it; `least`: only an upper bound of
-    that is known. `alone`, `alone_least`: the same once all the others are known."""
+    """A quantity with its share of the variance. `left`: the share that is left without it; if not `left_known`, an upper
+    bound. `alone`, `alone_known`: the same where all the others are known instead. `stated`: the share as text."""
 
-    def __init__(self, name, components, share, left, left_known=True, alone=None, alone_known=True):
+    def __init__(self, name, components, share, left, left_known=True, alone=None, alone_known=True, stated=None):
         self.name, self.components, self.share = name, components, share
         self.left, self.left_known = left, left_known
+        self.stated = percent(min(1.0, share)) if stated is None else stated
         self.alone, self.alone_known = share if alone is None else alone, alone_known
 
 
@@ -61,7 +62,8 @@ def by_indices(b, indices):
     for i in rows:
         left, known = resolved.rest(i.first, i, [j for j in indices.rows if j is not i])
         low, high = resolved.ends(i)
-        yield Part(i.input, of(i.input), i.first, left, known, high if low <= 0 else i.first, not low <= 0)
+        yield Part(i.input, of(i.input), i.first, left, known, high if low <= 0 else i.first, not low <= 0,
+                   resolved.index_text(min(1.0, i.first), i))
 
 
 def sentence(text):
@@ -142,7 +144,7 @@ class Advice:
         if self.flat:
             return (f"No single quantity matters much: {first.name} has the largest share of the variance, {percent(first.share)}, "
                     f"and half its uncertainty would bring u from {now} to {self.size(1 - HALVED * first.share)}.")
-        text = f"Most is to be gained from {first.name}, {percent(min(1.0, first.share))} of the variance"
+        text = f"Most is to be gained from {first.name}, {first.stated} of the variance"
         text += (f": half its uncertainty would bring u from {now} to {self.size(1 - HALVED * first.share)}" if self.law else
                  f": without it, u would fall from {now} to {self.size(first.left, first.left_known)}")
         if self.count > 1 and self.show(first.alone) != self.show(1):
@@ -150,7 +152,7 @@ class Advice:
         return text + "."
 
     def made(self):
-        rows = [types.SimpleNamespace(name=p.name, share=percent(min(1.0, p.share)), exact=self.show(p.left, p.left_known),
+        rows = [types.SimpleNamespace(name=p.name, share=p.stated, exact=self.show(p.left, p.left_known),
                                       half=self.show(1 - HALVED * p.share) if self.law else "", how=how(p.components))
                 for p in self.parts[:LISTED]]
         return types.SimpleNamespace(
