@@ -44,6 +44,17 @@ def fit_labels(figure):
     figure.draw_without_rendering()
 
 
+def exponents_to_labels(figure):
+    """Puts the exponent of an axis behind its label: matplotlib writes it at the end of the axis, on other text."""
+    figure.draw_without_rendering()
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        power = re.fullmatch(r"1e([-\u2212]?\d+)", axis.get_offset_text().get_text())
+        if power and any(tick.get_visible() and tick.get_text() for tick in axis.get_ticklabels()):
+            axis.get_offset_text().set_visible(False)
+            times = "× 10" + power[1].replace("\u2212", "-").translate(rounding.RAISED)
+            axis.set_label_text(f"{axis.get_label_text()}, {times}" if axis.get_label_text() else times)
+
+
 def with_figure(row, drawing):
     row.figure = markupsafe.Markup(drawing)
     return row
@@ -52,6 +63,7 @@ def with_figure(row, drawing):
 def svg(figure, name, title):
     """The figure as an <svg> element whose ids start with `name`."""
     buffer = io.StringIO()
+    exponents_to_labels(figure)
     fit_labels(figure)
     figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
     plt.close(figure)

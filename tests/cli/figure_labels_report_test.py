@@ -1,0 +1,50 @@
+"""Figures: exponents stand with the label of their axis, names of points do not cover each other.
+
+usage: figure_labels_report_test.py path/to/gumshoe [unittest options]
+"""
+import sys
+import unittest
+
+from program import ROOT
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "reports"))
+from gumshoe_report import choice_figures, figures
+
+import matplotlib.pyplot as plt
+
+
+class Exponents(unittest.TestCase):
+    def drawn(self, label, size=1e-17, **more):
+        figure, grid = plt.subplots(2, 1, squeeze=False, **more)
+        for axes in grid[:, 0]:
+            axes.plot([0, 3 * size], [0, 1])
+        grid[-1, 0].set_xlabel(label)
+        return figures.svg(figure, "x", "a figure")
+
+    def test_an_exponent_stands_once_behind_the_label(self):
+        text = self.drawn("deviation, in kg", sharex=True)
+        self.assertIn(">deviation, in kg, × 10⁻¹⁷<", text)
+        self.assertEqual(text.count("10⁻¹⁷"), 1)
+        self.assertNotIn("1e", text[text.index("</defs>"):].replace("\u2212", "-"))
+
+    def test_plain_numbers_have_none(self):
+        self.assertNotIn("×", self.drawn("deviation, in mm", 0.1))
+
+
+class Names(unittest.TestCase):
+    def test_names_of_near_points_do_not_cover_each_other_or_a_mark(self):
+        figure, axes = plt.subplots()
+        axes.set_xlim(0, 10), axes.set_ylim(0, 10)
+        points = [(8, 5, "high speed, low feed"), (8.1, 5.1, "twelve start angles"), (8, 5, "twelve start angles, fitted")]
+        choice_figures.name_points(axes, points, [(6, 5)])
+        boxes = [text.get_window_extent() for text in axes.texts]
+        self.assertEqual(len(boxes), 3)
+        for k, box in enumerate(boxes):
+            self.assertEqual(box.count_overlaps(boxes[:k]), 0)
+            self.assertFalse(box.contains(*axes.transData.transform((6, 5))))
+        plt.close(figure)
+
+
+if __name__ == "__main__":
+    unittest.main()
