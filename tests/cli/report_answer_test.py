@@ -14,6 +14,7 @@ from program import ROOT
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
+from browser import measured
 from report_resolved_test import Runs, plain, words_of
 from gumshoe_report import page, workbook
 
@@ -35,6 +36,20 @@ name = "expression"
 y = { formula = "x", unit = "mm" }
 [quantities]
 x = { observations = ["1.00 mm", "1.02 mm", "1.01 mm"] }
+"""
+
+LONG = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+result_of_{first} = {{ formula = "{first} + {second}", unit = "mm" }}
+result_of_{second} = {{ formula = "{first} - {second}", unit = "mm" }}
+[quantities]
+{first} = {{ value = "10 mm", u = "2 um" }}
+{second} = {{ value = "1 mm", u = "1 um", source = "a certificate" }}
+[analysis]
+joint = [["result_of_{first}", "result_of_{second}"]]
+sensitivity = {{ sobol = 256 }}
 """
 
 CONFORMITY = """
@@ -78,6 +93,15 @@ class Answer(Runs):
         number = re.search(r'<p class="number">(.*?)</p>', self.html, re.S)[1]
         self.assertRegex(plain(re.sub("<[^>]+>", "", number)), r"^y = 1\.010? mm, 95 % interval \[\d\.\d+, \d\.\d+\] mm$")
         self.assertEqual(words.count("the ends of the interval are quantiles and remain valid"), 1)
+
+    def test_long_names_push_no_number_out_of_sight(self):
+        first, second = (f"a_long_name_of_one_of_the_quantities_of_the_{what}_kind" for what in ("first", "second"))
+        self.words(LONG.format(first=first, second=second))
+        path = self.folder / "long.html"
+        path.write_text(self.html, encoding="utf-8")
+        cut = "return [...document.querySelectorAll('.wide')].filter(e => e.scrollWidth > e.clientWidth + 1).length"
+        self.assertEqual(measured(path, cut, 1200), 0)
+        self.assertLessEqual(measured(path, "return document.documentElement.scrollWidth", 600), 600)
 
     def test_the_rule_stands_in_the_heading(self):
         headings = re.findall(r"<h3>(y0: .*?)</h3>", self.page_of_two_rules())
