@@ -181,32 +181,6 @@ def distribution(output, budget, p, name):
     return svg(figure, name, f"Distribution of {output.name} with its coverage intervals")
 
 
-def overview(outputs, name):
-    """Estimate and symmetric interval of every output of one measurand, as deviations from their mean."""
-    reference = outputs[0]
-    display = lambda o, si: si * o.display_factor + o.display_offset
-    widths = [extent(o)[1] * o.display_factor for o in outputs]
-    middle = float(np.mean([display(o, extent(o)[0]) for o in outputs]))
-    spread = max(float(np.median(widths)), 1e-300)
-    unit, factor = rounding.finer(reference.display_units, spread)
-    places = rounding.decimals(spread)
-    middle = middle if places is None else round(middle, places)
-    figure, axes = plt.subplots(figsize=(7.2, 0.7 + 0.26 * len(outputs)), layout="constrained")
-    for k, o in enumerate(outputs):
-        ends = [(display(o, e) - middle) * factor for e in (o.symmetric_low, o.symmetric_high)]  # NaN draws nothing
-        axes.plot(ends, [k, k], color=BLUE, linewidth=1.8, solid_capstyle="butt")
-        if math.isfinite(o.estimate):
-            axes.plot((display(o, o.estimate) - middle) * factor, k, "o", color=BLUE, markersize=5)
-    axes.set_yticks(range(len(outputs)), [o.name for o in outputs])
-    axes.tick_params(axis="y", length=0)
-    axes.invert_yaxis()
-    axes.grid(axis="x", **GRID)
-    axes.spines["left"].set_visible(False)
-    shown = f"{rounding.fixed(middle, places)} {rounding.unit_text(reference.display_units)}".strip()
-    axes.set_xlabel(f"deviation from {shown}" + (f", in {rounding.unit_text(unit)}" if unit != "1" else ""))
-    return svg(figure, name, f"Estimates and coverage intervals of {reference.measurand}")
-
-
 def small_multiples(outputs, name, columns=4):
     count = math.ceil(len(outputs) / columns)
     figure, grid = plt.subplots(count, columns, figsize=(7.2, 1.35 * count), layout="constrained", squeeze=False)

@@ -4,7 +4,7 @@ import types
 
 import markupsafe
 
-from . import certificate, convergence, csv_tables, explain, failed, figures, profile, profile_figures, reduce
+from . import certificate, convergence, csv_tables, explain, failed, figures, overview_figure, profile, profile_figures, reduce
 from . import region_figures, rounding, scatter, sensitivity_figures, spatial_figures, studies, tables, targets, workbook
 
 OPEN = 2      # outputs shown in full; the others are folded
@@ -132,7 +132,7 @@ def overviews(r, drawn):
     groups = {}
     for output in outputs:
         groups.setdefault(output.measurand, []).append(output)
-    found = [figures.overview(g[:60], f"o{k}") for k, g in enumerate(groups.values()) if len(g) > 1]
+    found = [overview_figure.overview(g[:60], f"o{k}") for k, g in enumerate(groups.values()) if len(g) > 1]
     return [markupsafe.Markup(f) for f in found + [figures.small_multiples(outputs[:MULTIPLES], "m")]]
 
 

@@ -3,13 +3,14 @@
 usage: figure_labels_report_test.py path/to/gumshoe [unittest options]
 """
 import sys
+import types
 import unittest
 
 from program import ROOT
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import choice_figures, figures
+from gumshoe_report import choice_figures, figures, overview_figure
 
 import matplotlib.pyplot as plt
 
@@ -44,6 +45,27 @@ class Names(unittest.TestCase):
             self.assertEqual(box.count_overlaps(boxes[:k]), 0)
             self.assertFalse(box.contains(*axes.transData.transform((6, 5))))
         plt.close(figure)
+
+
+class Panels(unittest.TestCase):
+    def output(self, name, estimate, u=2e-6):
+        return types.SimpleNamespace(name=name, measurand="z", estimate=estimate, standard_uncertainty=u, symmetric_low=estimate - 2 * u,
+                                     symmetric_high=estimate + 2 * u, shortest_low=estimate - 2 * u, shortest_high=estimate + 2 * u,
+                                     display_units="mm", display_factor=1e3, display_offset=0, histogram=[], histogram_edges=[])
+
+    def outputs(self, of_setup):
+        return [self.output(f"z[rod{k}, setup {n}]", of_setup * n + k * 1e-6) for n in range(4) for k in range(3)]
+
+    def test_outputs_far_apart_have_a_panel_for_each_value_of_the_label_that_parts_them(self):
+        outputs = self.outputs(5e-4)
+        parts = overview_figure.panels(outputs)
+        self.assertEqual([(title, len(group)) for title, group in parts], [(f"setup {n}", 3) for n in range(4)])
+        text = overview_figure.overview(outputs, "o")
+        self.assertEqual(text.count(">deviation from "), 4)
+
+    def test_near_ones_share_an_axis(self):
+        self.assertEqual(len(overview_figure.panels(self.outputs(5e-6))), 1)
+        self.assertEqual(len(overview_figure.panels([self.output("a", 0), self.output("b", 1)])), 1)  # no label parts them
 
 
 if __name__ == "__main__":
