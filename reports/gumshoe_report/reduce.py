@@ -100,6 +100,7 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
         return None
     if not math.isfinite(u_monte_carlo):
         return without_u(b)
+    b = resolved.without_dust(b)
     correlated = not independent(b)
     if not math.isfinite(b.correlation_share):  # no budget: Shapley effects in place of Sobol' indices are a sign of correlation
         correlated = shapley is not None and sobol is None

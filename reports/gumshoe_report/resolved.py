@@ -11,6 +11,8 @@ BELOW = "<\u202f"
 
 def without_dust(b):
     """The budget with contributions of zero where rounding has left something else."""
+    if not b.rows:
+        return b
     largest = max((c.contribution for c in b.rows if math.isfinite(c.contribution)), default=0)
     none = {"contribution": 0.0, "sensitivity": 0.0, "share": 0.0}
     rows = [types.SimpleNamespace(**{**vars(c), **(none if c.contribution < DUST * largest else {})}) for c in b.rows]

@@ -155,6 +155,11 @@ class Rows(unittest.TestCase):
                                        second_order_uncertainty=9.0)).remarks
         self.assertNotIn("shift the mean", remarks[0])
 
+    def test_what_is_left_is_no_rounding_error(self):
+        rows = [component("a", share=1.0, contribution=3.6), component("b", share=1e-32, contribution=3.6e-16)]
+        b = budget(rows, applicable=1, combined_standard_uncertainty=3.6)
+        self.assertEqual(reduce.table(b, 3.6).rows[0].exact, "0")
+
     def test_the_order_is_that_of_the_budget_unless_samples_show_more(self):
         rows = [component("noisy", share=1e-6, contribution=1e-3), component("small", share=0.01, contribution=0.1),
                 component("bent", share=0.0, contribution=0.0), component("main", share=0.5, contribution=0.7)]
