@@ -107,7 +107,7 @@ def profiles(r):
     budgets, sobol = by_output(r.budgets, "output"), by_output(r.sensitivities, "output")
     for k, p in enumerate(profile.of(r, varying(r))):
         yield types.SimpleNamespace(
-            measurand=p.measurand, along=p.along, round=profile_figures.is_round(p), lines=len(p.lines),
+            narrow=profile_figures.too_narrow(p), measurand=p.measurand, along=p.along, round=profile_figures.is_round(p), lines=len(p.lines),
             drawn=min(len(p.lines), profile.LINES), sobol=bool(sobol), widest=profile.widest(p, budgets, sobol),
             band=markupsafe.Markup(profile_figures.band(p, f"p{k}", r.coverage_probability)),
             where=markupsafe.Markup(profile_figures.where(p, budgets, sobol, f"w{k}")),

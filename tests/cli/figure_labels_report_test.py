@@ -10,7 +10,7 @@ from program import ROOT
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import choice_figures, figures, overview_figure
+from gumshoe_report import choice_figures, figures, overview_figure, profile_figures
 
 import matplotlib.pyplot as plt
 
@@ -62,6 +62,12 @@ class Panels(unittest.TestCase):
         self.assertEqual([(title, len(group)) for title, group in parts], [(f"setup {n}", 3) for n in range(4)])
         text = overview_figure.overview(outputs, "o")
         self.assertEqual(text.count(">deviation from "), 4)
+
+    def test_intervals_that_the_line_covers_are_stated(self):
+        line = lambda u: types.SimpleNamespace(lines=[types.SimpleNamespace(outputs=[self.output("z", 0.5 + k / 100, u) for k in range(9)])])
+        self.assertEqual(profile_figures.too_narrow(line(1e-4)).replace("\u202f", " "),
+                         "The intervals are too narrow to be seen: their half-width is at most 0.20 mm.")
+        self.assertEqual(profile_figures.too_narrow(line(1e-2)), "")
 
     def test_near_ones_share_an_axis(self):
         self.assertEqual(len(overview_figure.panels(self.outputs(5e-6))), 1)
