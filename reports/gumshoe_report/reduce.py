@@ -51,8 +51,8 @@ class Part:
 
 
 def by_law(b):
-    """What is left is added up, because 1 less a share near 1 is rounding."""
-    parts = drawn_shares(b)
+    """What is left is added up, because 1 less a share near 1 is rounding; so is a share of the square of DUST."""
+    parts = [(c, share if share > resolved.DUST ** 2 else 0.0) for c, share in drawn_shares(b)]
     return [Part(c.name, [c], share, sum(s for k, (_, s) in enumerate(parts) if k != n)) for n, (c, share) in enumerate(parts)]
 
 
@@ -100,7 +100,6 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
         return None
     if not math.isfinite(u_monte_carlo):
         return without_u(b)
-    b = resolved.without_dust(b)
     correlated = not independent(b)
     if not math.isfinite(b.correlation_share):  # no budget: Shapley effects in place of Sobol' indices are a sign of correlation
         correlated = shapley is not None and sobol is None
