@@ -1,6 +1,7 @@
 """Figure of a choice: time against U of all candidates, with the Pareto front."""
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.transforms import Bbox
 
 from .choice import axis_label, duration, plain_number, refuted
 from .figures import BLUE, GREY, GRID, INK, ORANGE, svg
@@ -42,6 +43,32 @@ def logarithmic_U(axis, values):
     axis.set_major_formatter(FuncFormatter(lambda u, _: plain_number(u)))
 
 
+def places(at_right):
+    """Where the name of a point may stand, the best place first: offset in points, alignment."""
+    sides = [(-7, "right"), (7, "left")] if at_right else [(7, "left"), (-7, "right")]
+    return [(dx, dy, side) for dy in (0, 10, -10, 20, -20, 30, -30) for dx, side in sides]
+
+
+def name_points(axes, points, marks):
+    """Names next to their points, where they cover neither another name nor a mark."""
+    axes.figure.draw_without_rendering()
+    to_pixels = axes.transData.transform
+    taken = [Bbox.from_bounds(x - 6, y - 6, 12, 12) for x, y in map(to_pixels, [(t, U) for t, U, _ in points] + marks)]
+    inside = axes.get_window_extent()
+    for time, U, name in points:
+        at_right = axes.transAxes.inverted().transform(to_pixels((time, U)))[0] > 0.6
+        for dx, dy, side in places(at_right):
+            text = axes.annotate(name, (time, U), xytext=(dx, dy), textcoords="offset points", fontsize=8, color=INK, va="center", ha=side,
+                                 bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.6})
+            box = text.get_window_extent()
+            if inside.x0 <= box.x0 and box.x1 <= inside.x1 and not box.count_overlaps(taken):
+                break
+            text.remove()
+        else:
+            continue  # its numbers stand in the table
+        taken.append(box)
+
+
 def pareto(c, name):
     rows = [r for r in c.candidates if r.asked > 0 and r.time > 0]
     if len(rows) < 2:
@@ -71,11 +98,7 @@ def pareto(c, name):
     drawn = [*rows, *others]
     time_axis(axes.xaxis, [r.time for r in drawn])
     logarithmic_U(axes.yaxis, [U(r) for r in drawn])
-    for r in others:
-        at_right = axes.transAxes.inverted().transform(axes.transData.transform((r.time, U(r))))[0] > 0.6
-        axes.annotate(r.name, (r.time, U(r)), xytext=(-7 if at_right else 7, 0), textcoords="offset points", fontsize=8,
-                      color=INK, va="center", ha="right" if at_right else "left",
-                      bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.6})
+    name_points(axes, [(r.time, U(r), r.name) for r in others], [(best.time, U(best))] if best.asked > 0 else [])
     axes.annotate(f"target {plain_number(c.target * c.display_factor)}", (1, c.target * c.display_factor),
                   xycoords=("axes fraction", "data"), xytext=(0, 3), textcoords="offset points", fontsize=8,
                   color=ORANGE, ha="right")

@@ -28,6 +28,11 @@ def of_labels(t):
     return all(isinstance(key.values[0], str) for key in t.keys.values())
 
 
+def is_reference(t, row):
+    """Whether a part is one of those that the others are compared with: its difference is zero by definition."""
+    return of_labels(t) and row.y == 0 and row.u == 0
+
+
 def table(t):
     """Heads and rows as text. What is subtracted from an indication corrects it: its error with the other sign."""
     unit, factor = unit_of(t)
@@ -37,8 +42,12 @@ def table(t):
         values, of = shown(key)
         heads.append(name.replace("_", " ") + (f" ({unit_text(of)})" if unit_text(of) else ""))
         columns.append([v if isinstance(v, str) else f"{v:.6g}".replace("-", "−") for v in values])
-    lines = [types.SimpleNamespace(keys=keys, error=fixed(factor * row.y, places), correction=fixed(-factor * row.y, places),
-                                   u=fixed(factor * row.u, places), readings=int(row.readings))
+    def line(keys, row):
+        if is_reference(t, row):
+            return types.SimpleNamespace(keys=keys, error="reference", correction="", u="", readings=int(row.readings))
+        return types.SimpleNamespace(keys=keys, error=fixed(factor * row.y, places), correction=fixed(-factor * row.y, places),
+                                     u=fixed(factor * row.u, places), readings=int(row.readings))
+    lines = [line(keys, row)
              for keys, row in zip(zip(*columns), t.rows)]
     return types.SimpleNamespace(heads=heads, rows=lines[:MOST], more=max(0, len(lines) - MOST), unit=unit_text(unit),
                                  indication=t.indication.replace("_", " "), of_labels=of_labels(t))

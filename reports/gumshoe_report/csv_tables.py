@@ -129,7 +129,7 @@ def trace(t):
                          for f in t.findings for q in f.quantities],
             "compensation": [{"finding": k + 1, **one} for k, f in enumerate(t.findings) if not rejected(f)
                              for table in f.tables for one in compensation.lines(table)],
-            "candidates": [line("trace/candidates", c) for c in t.candidates],
+            "candidates": [{**line("trace/candidates", c), "correlation": c.correlation or ""} for c in t.candidates],
             "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
             "of_indications": [line("trace/of_indications", e) for e in t.of_indications],
             "anomalous_blocks": [line("trace/anomalous_blocks", b) for b in t.anomalous_blocks],
@@ -146,7 +146,7 @@ def volume(v):
     points = [{**{f"{a.name}_{a.display_units}": x for a, x in zip(v.axes, at)}, **line("volume/points", p), "unit": "m"}
               for at, p in zip(itertools.product(*map(commands, v.axes)), v.points)]
     return {"axes": [line("volume/axes", a) for a in v.axes], "points": points,
-            "causes": [line("volume/causes", s) for s in v.shares]}
+            "causes": [{**line("volume/causes", s), "error_unit": "m"} for s in v.shares]}
 
 
 def text(lines):

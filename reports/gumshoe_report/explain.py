@@ -52,8 +52,9 @@ def heavier(c):
     return math.sqrt(c.degrees_of_freedom / (c.degrees_of_freedom - 2)) if is_t and c.degrees_of_freedom > 2 else 1.0
 
 
-def reasons(budget, indices, shapley):
-    found, told = [], set()
+def reasons(budget, indices, shapley, left_out=""):
+    """`left_out`: what failed samples have to do with it; "" if none failed."""
+    found, told = [left_out] if left_out else [], set()
     known = first_orders(indices) or first_orders(shapley)
     rows = {c.name: c for c in budget.rows}
     kinks = [n for n, c in rows.items() if not c.differentiable and n in known]
@@ -89,8 +90,8 @@ def reasons(budget, indices, shapley):
     return found
 
 
-def why(budget, indices, shapley, u_monte_carlo):
-    """One sentence on budget and indices; "" where there is nothing to compare. u_monte_carlo in SI."""
+def why(budget, indices, shapley, u_monte_carlo, left_out=""):
+    """One sentence on budget and indices; "" where there is nothing to compare. u_monte_carlo in SI; `left_out`: as in reasons()."""
     known = first_orders(indices) or first_orders(shapley)
     rows = [c for c in budget.rows if c.name in known] if budget else []
     shares = budget is not None and (budget.applicable or any(math.isfinite(c.share) or not c.differentiable for c in rows))
@@ -107,7 +108,8 @@ def why(budget, indices, shapley, u_monte_carlo):
     size = f" The Monte Carlo standard uncertainty is {fixed(ratio, 2)} times u_c." \
         if math.isfinite(ratio) and abs(ratio - 1) > APART else ""
     if budget.applicable and apart[worst] <= APART and hidden <= APART:
-        return f"Budget and {what} agree: no share differs by more than {fixed(max(apart[worst], 0.001), 3)}." + size
-    found = reasons(budget, indices, shapley) or ["the model is not linear over the range of its inputs"]
+        because = f" The reason: {left_out}." if size and left_out else ""
+        return f"Budget and {what} agree: no share differs by more than {fixed(max(apart[worst], 0.001), 3)}." + size + because
+    found = reasons(budget, indices, shapley, left_out) or ["the model is not linear over the range of its inputs"]
     most = "" if cancels(budget) else f" most for {worst} ({fixed(apart[worst], 2)}),"
     return f"Budget and {what} differ,{most} because " + "; ".join(found) + "." + size

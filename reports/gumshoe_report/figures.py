@@ -44,6 +44,17 @@ def fit_labels(figure):
     figure.draw_without_rendering()
 
 
+def exponents_to_labels(figure):
+    """Puts the exponent of an axis behind its label: matplotlib writes it at the end of the axis, on other text."""
+    figure.draw_without_rendering()
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        power = re.fullmatch(r"1e([-\u2212]?\d+)", axis.get_offset_text().get_text())
+        if power and any(tick.get_visible() and tick.get_text() for tick in axis.get_ticklabels()):
+            axis.get_offset_text().set_visible(False)
+            times = "× 10" + power[1].replace("\u2212", "-").translate(rounding.RAISED)
+            axis.set_label_text(f"{axis.get_label_text()}, {times}" if axis.get_label_text() else times)
+
+
 def with_figure(row, drawing):
     row.figure = markupsafe.Markup(drawing)
     return row
@@ -52,6 +63,7 @@ def with_figure(row, drawing):
 def svg(figure, name, title):
     """The figure as an <svg> element whose ids start with `name`."""
     buffer = io.StringIO()
+    exponents_to_labels(figure)
     fit_labels(figure)
     figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
     plt.close(figure)
@@ -136,6 +148,7 @@ def distribution(output, budget, p, name):
             ("shortest", to_axis([output.shortest_low, output.shortest_high]), ORANGE, "-")]
     u = budget.combined_standard_uncertainty if budget is not None and budget.applicable else 0
     spread = float(to_axis(budget.estimate + u) - to_axis(budget.estimate)) if u > 0 else 0
+    highest = top.get_ylim()[1] / 1.05
     if spread > 0:  # u may be smaller than what two numbers of double precision differ by
         x = np.linspace(*limits, 400)
         centre = float(to_axis(budget.estimate))
@@ -144,10 +157,12 @@ def distribution(output, budget, p, name):
         ends = budget.estimate + np.array([-1, 1]) * budget.expanded_uncertainty
         rows.append(("GUM  y ± U", to_axis(ends), INK, (0, (4, 2))))
         peak = 1 / (spread * math.sqrt(2 * math.pi))
-        top.set_ylim(0, 1.18 * max(peak, top.get_ylim()[1] / 1.05))  # room for the curve and the legend
+        highest = max(peak, highest)
+    if math.isfinite(output.estimate):  # unlike the bars of a discrete distribution
+        top.axvline(float(to_axis(output.estimate)), color=INK, linewidth=1, linestyle=(0, (1, 2)), ymax=0.94, label="estimate")
+    top.set_ylim(0, 1.18 * highest)  # room for the curve and the legend
+    if top.get_legend_handles_labels()[0]:
         top.legend(loc="upper right", frameon=False, fontsize=8)
-    if math.isfinite(output.estimate):
-        top.axvline(float(to_axis(output.estimate)), color=BLUE, linewidth=0.8, ymax=0.94)
     rows = [row for row in rows if np.isfinite(row[1]).all()]
     for k, (text, ends, colour, style) in enumerate(rows):
         low.plot(ends, [-k, -k], color=colour, linewidth=1.8, linestyle=style)
@@ -164,32 +179,6 @@ def distribution(output, budget, p, name):
     top.tick_params(axis="x", length=0)
     top.set_title(f"Probability density and intervals for {rounding.probability(p)}", loc="left", fontsize=9, color=INK)
     return svg(figure, name, f"Distribution of {output.name} with its coverage intervals")
-
-
-def overview(outputs, name):
-    """Estimate and symmetric interval of every output of one measurand, as deviations from their mean."""
-    reference = outputs[0]
-    display = lambda o, si: si * o.display_factor + o.display_offset
-    widths = [extent(o)[1] * o.display_factor for o in outputs]
-    middle = float(np.mean([display(o, extent(o)[0]) for o in outputs]))
-    spread = max(float(np.median(widths)), 1e-300)
-    unit, factor = rounding.finer(reference.display_units, spread)
-    places = rounding.decimals(spread)
-    middle = middle if places is None else round(middle, places)
-    figure, axes = plt.subplots(figsize=(7.2, 0.7 + 0.26 * len(outputs)), layout="constrained")
-    for k, o in enumerate(outputs):
-        ends = [(display(o, e) - middle) * factor for e in (o.symmetric_low, o.symmetric_high)]  # NaN draws nothing
-        axes.plot(ends, [k, k], color=BLUE, linewidth=1.8, solid_capstyle="butt")
-        if math.isfinite(o.estimate):
-            axes.plot((display(o, o.estimate) - middle) * factor, k, "o", color=BLUE, markersize=5)
-    axes.set_yticks(range(len(outputs)), [o.name for o in outputs])
-    axes.tick_params(axis="y", length=0)
-    axes.invert_yaxis()
-    axes.grid(axis="x", **GRID)
-    axes.spines["left"].set_visible(False)
-    shown = f"{rounding.fixed(middle, places)} {rounding.unit_text(reference.display_units)}".strip()
-    axes.set_xlabel(f"deviation from {shown}" + (f", in {rounding.unit_text(unit)}" if unit != "1" else ""))
-    return svg(figure, name, f"Estimates and coverage intervals of {reference.measurand}")
 
 
 def small_multiples(outputs, name, columns=4):

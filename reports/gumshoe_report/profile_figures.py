@@ -9,6 +9,8 @@ from .figures import BLUE, GREY, GRID, INK, ORANGE, PALE, svg
 
 COLOURS = [BLUE, ORANGE, "#4c8f4a", "#8a5fa8", "#b08a1e", "#3aa0a8"]
 REST = GREY
+NARROW = 0.01  # of the largest deviation: an interval of this half-width is as narrow as the line
+SPACE = "\u202f"
 ROUND = math.radians(180)  # an angle that spans as much is drawn round
 
 
@@ -28,6 +30,16 @@ def deviations(p):
     return rounding.unit_text(unit), [
         tuple(np.array([to(o, e(o)) for o in line.outputs]) for e in (
             lambda o: o.estimate, lambda o: o.symmetric_low, lambda o: o.symmetric_high)) for line in p.lines]
+
+
+def too_narrow(p):
+    """What is said of intervals that the line of the estimates covers; "" where they show."""
+    unit, drawn = deviations(p)
+    largest = lambda values: max((float(v) for v in np.concatenate(values) if math.isfinite(v)), default=0.0)
+    half = largest([(high - low) / 2 for _, low, high in drawn])
+    if not 0 < half < NARROW * largest([np.abs(estimate) for estimate, *_ in drawn]):
+        return ""
+    return f"The intervals are too narrow to be seen: their half-width is at most {rounding.significant(half)}{unit and SPACE}{unit}."
 
 
 def step(size):

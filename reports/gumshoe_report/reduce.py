@@ -2,11 +2,13 @@
 import math
 import types
 
+from . import resolved
 from .explain import APART, drawn_uncertainty, heavier, independent, listed
 from .rounding import after, finer, percent, significant, unit_text
 from .tables import spread
 
 LISTED, WORTH = 5, 0.01  # rows; the least share of the variance that is worth an effort
+HALVED = 0.75  # of its share of the variance goes with half the uncertainty of a quantity
 OF_THE_DATA = "stated for every indication"  # the program's own words for `u` of an indication
 
 
@@ -37,12 +39,31 @@ def linear(b, sobol):
                                 for i in sobol.rows)
 
 
-def shares(b, indices, law):
-    """(name, components, share of the variance), by the law or by first-order indices."""
-    if law:
-        return [(c.name, [c], share) for c, share in drawn_shares(b)]
+class Part:
+    """A quantity with its share of the variance. `left`: the share that is left without it; if not `left_known`, an upper
+    bound. `alone`, `alone_known`: the same where all the others are known instead. `stated`: the share as text."""
+
+    def __init__(self, name, components, share, left, left_known=True, alone=None, alone_known=True, stated=None):
+        self.name, self.components, self.share = name, components, share
+        self.left, self.left_known = left, left_known
+        self.stated = percent(min(1.0, share)) if stated is None else stated
+        self.alone, self.alone_known = share if alone is None else alone, alone_known
+
+
+def by_law(b):
+    """What is left is added up, because 1 less a share near 1 is rounding; so is a share of the square of DUST."""
+    parts = [(c, share if share > resolved.DUST ** 2 else 0.0) for c, share in drawn_shares(b)]
+    return [Part(c.name, [c], share, sum(s for k, (_, s) in enumerate(parts) if k != n)) for n, (c, share) in enumerate(parts)]
+
+
+def by_indices(b, indices):
     of = lambda name: [c for c in b.rows if name in (c.name, c.quantity)]
-    return [(i.input, of(i.input), i.first) for i in (indices.rows if indices else ()) if math.isfinite(i.first)]
+    rows = [i for i in indices.rows if math.isfinite(i.first)]
+    for i in rows:
+        left, known = resolved.rest(i.first, i, [j for j in indices.rows if j is not i])
+        low, high = resolved.ends(i)
+        yield Part(i.input, of(i.input), i.first, left, known, high if low <= 0 else i.first, not low <= 0,
+                   resolved.index_text(min(1.0, i.first), i))
 
 
 def sentence(text):
@@ -88,26 +109,52 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
                         + (f" The largest Shapley effect is that of {largest.input}, {percent(largest.effect)}."
                            if largest else ""))
     law = accounted and linear(b, sobol)
-    everything = shares(b, sobol or given, law)
+    indices = sobol or given
+    everything = by_law(b) if law else list(by_indices(b, indices)) if indices else []
     if b.applicable and not accounted and not everything:
         return unknown(b, u_monte_carlo, shapley)
     u = drawn_uncertainty(b) if law else u_monte_carlo
-    parts = sorted((p for p in everything if p[2] >= WORTH), key=lambda p: -p[2])
+    parts = sorted((p for p in everything if p.share >= WORTH), key=lambda p: -p.share)
     if not parts or u <= 0:
         return None
-    unit, factor = finer(b.display_units, spread(b, u))
-    show = lambda share: significant(factor * spread(b, u * math.sqrt(max(0.0, 1 - share))))
-    with_unit = lambda text: text + after(unit)
-    first, _, share = parts[0]
-    text = f"Most is to be gained from {first}, {percent(min(1.0, share))} of the variance"
-    if law:
-        text += f": half its uncertainty would bring u from {with_unit(show(0))} to {with_unit(show(0.75 * share))}"
-    else:
-        text += f": without it, u would fall from {with_unit(show(0))} to {with_unit(show(share))}"
-    if len(everything) > 1:
-        text += f"; without all the others it would fall to {with_unit(show(1 - share))}"
-    return types.SimpleNamespace(
-        text=text + ".", unit=unit_text(unit), law=law, few=law and any(heavier(c) > 1 for c in b.rows),
-        rows=[types.SimpleNamespace(name=name, share=percent(min(1.0, s)), half=show(0.75 * s) if law else "", exact=show(s),
-                                    how=how(components)) for name, components, s in parts[:LISTED]],
-        left=len(parts) - LISTED)
+    return Advice(b, u, law, parts, len(everything)).made()
+
+
+class Advice:
+    """The table and its sentence. `parts`: the quantities that are worth an effort, the largest first, of `count`."""
+
+    def __init__(self, b, u, law, parts, count):
+        self.b, self.u, self.law, self.parts, self.count = b, u, law, parts, count
+        self.unit, self.factor = finer(b.display_units, spread(b, u))
+        self.digits = 2
+        self.flat = law and self.show(1 - HALVED * parts[0].share) == self.show(1)
+        self.digits += self.flat  # two digits would all be equal
+
+    def show(self, left, known=True):
+        """u where this share of its variance is left."""
+        text = significant(self.factor * spread(self.b, self.u * math.sqrt(max(0.0, left))), self.digits)
+        return text if known else resolved.BELOW + text
+
+    def size(self, left, known=True):
+        text = self.show(left) + after(self.unit)
+        return text if known else f"less than {text}"
+
+    def sentence(self):
+        first, now = self.parts[0], self.size(1)
+        if self.flat:
+            return (f"No single quantity matters much: {first.name} has the largest share of the variance, {percent(first.share)}, "
+                    f"and half its uncertainty would bring u from {now} to {self.size(1 - HALVED * first.share)}.")
+        text = f"Most is to be gained from {first.name}, {first.stated} of the variance"
+        text += (f": half its uncertainty would bring u from {now} to {self.size(1 - HALVED * first.share)}" if self.law else
+                 f": without it, u would fall from {now} to {self.size(first.left, first.left_known)}")
+        if self.count > 1 and self.show(first.alone) != self.show(1):
+            text += f"; without all the others it would fall to {self.size(first.alone, first.alone_known)}"
+        return text + "."
+
+    def made(self):
+        rows = [types.SimpleNamespace(name=p.name, share=p.stated, exact=self.show(p.left, p.left_known),
+                                      half=self.show(1 - HALVED * p.share) if self.law else "", how=how(p.components))
+                for p in self.parts[:LISTED]]
+        return types.SimpleNamespace(
+            text=self.sentence(), unit=unit_text(self.unit), law=self.law, rows=rows, left=self.count - len(rows),
+            few=self.law and any(heavier(c) > 1 for c in self.b.rows))

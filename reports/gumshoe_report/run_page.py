@@ -4,8 +4,8 @@ import types
 
 import markupsafe
 
-from . import certificate, convergence, csv_tables, explain, figures, profile, profile_figures, reduce
-from . import region_figures, rounding, scatter, sensitivity_figures, spatial_figures, studies, tables, workbook
+from . import certificate, convergence, csv_tables, explain, failed, figures, overview_figure, profile, profile_figures, reduce
+from . import region_figures, rounding, scatter, sensitivity_figures, spatial_figures, studies, tables, targets, workbook
 
 OPEN = 2      # outputs shown in full; the others are folded
 DRAWN = 8     # joint regions and conformity tests with a figure
@@ -21,6 +21,10 @@ def by_output(items, key):
     return {getattr(item, key): item for item in items}
 
 
+def of_target(t, budgets):
+    return targets.target(t, budgets.get(t.output))
+
+
 def varying(r):
     """Measurands that have a distribution; if none has, all."""
     measurands = [o for o in r.outputs if not getattr(o, "diagnostic", 0)] or r.outputs
@@ -33,9 +37,9 @@ def sections(r):
               "morris": r.morris, "dgsm": r.dgsm}.items()}
     verdicts = by_output(r.validations, "name")
     picture = lambda full, draw, *arguments: markupsafe.Markup(draw(*arguments)) if full else ""
-    targets = {}
+    wanted = {}
     for t in r.targets:
-        targets.setdefault(t.output, []).append(studies.target(t))
+        wanted.setdefault(t.output, []).append(of_target(t, found["budget"]))
     circles = {c.name: studies.circular(c, None) for c in r.circular if c.remark}  # where the line misleads
     for k, output in enumerate(varying(r)[:LISTED]):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
@@ -45,7 +49,7 @@ def sections(r):
         verdict = verdicts.get(output.name)
         accounted = not of.budget or explain.law_accounts(of.budget, output, verdict.verdict if verdict else "")
         yield types.SimpleNamespace(
-            summary=tables.summary_row(output), circle=circles.get(output.name), open=full, varies=varies, targets=targets.get(output.name, []),
+            summary=tables.summary_row(output), circle=circles.get(output.name), open=full, varies=varies, targets=wanted.get(output.name, []),
             certificate=certificate.line(output, of.budget, verdict, r.coverage_probability),
             reduce=reduce.table(of.budget, u, of.sobol, of.shapley, of.given, accounted),
             distribution=picture(full and varies, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
@@ -53,7 +57,8 @@ def sections(r):
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
             side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
             scatter=picture(full, scatter.figure, r.path, output, of.budget, f"x{k}"),
-            why=explain.why(of.budget, of.sobol, of.shapley, u),
+            why=explain.why(of.budget, of.sobol, of.shapley, u, failed.reason(output)),
+            condition=failed.condition(output, len(r.outputs) > 1),
             pairs=studies.pairs(of.sobol) if of.sobol and of.sobol.pairs else None,
             shapley_figure=picture(full and of.shapley and of.sobol, sensitivity_figures.side_by_side, None, None,
                                    of.shapley, f"h{k}"),
@@ -75,7 +80,7 @@ def whole_run(r):
         "circulars": [studies.circular(c, outputs.get(c.name)) for c in r.circular],
         "conformities": [figures.with_figure(studies.conformity(c, outputs.get(c.name)), region_figures.conformity(
             c, outputs.get(c.name), f"c{k}") if k < DRAWN else "") for k, c in enumerate(r.conformity)],
-        "targets": [studies.target(t) for t in r.targets if t.output not in {o.name for o in varying(r)}],
+        "targets": [of_target(t, by_output(r.budgets, "output")) for t in r.targets if t.output not in {o.name for o in varying(r)}],
         "one_at_a_time": [studies.one_at_a_time(t) for t in r.one_at_a_time],
         "stopping": studies.stopping(r.stopping) if r.stopping else None}
 
@@ -102,7 +107,7 @@ def profiles(r):
     budgets, sobol = by_output(r.budgets, "output"), by_output(r.sensitivities, "output")
     for k, p in enumerate(profile.of(r, varying(r))):
         yield types.SimpleNamespace(
-            measurand=p.measurand, along=p.along, round=profile_figures.is_round(p), lines=len(p.lines),
+            narrow=profile_figures.too_narrow(p), measurand=p.measurand, along=p.along, round=profile_figures.is_round(p), lines=len(p.lines),
             drawn=min(len(p.lines), profile.LINES), sobol=bool(sobol), widest=profile.widest(p, budgets, sobol),
             band=markupsafe.Markup(profile_figures.band(p, f"p{k}", r.coverage_probability)),
             where=markupsafe.Markup(profile_figures.where(p, budgets, sobol, f"w{k}")),
@@ -127,7 +132,7 @@ def overviews(r, drawn):
     groups = {}
     for output in outputs:
         groups.setdefault(output.measurand, []).append(output)
-    found = [figures.overview(g[:60], f"o{k}") for k, g in enumerate(groups.values()) if len(g) > 1]
+    found = [overview_figure.overview(g[:60], f"o{k}") for k, g in enumerate(groups.values()) if len(g) > 1]
     return [markupsafe.Markup(f) for f in found + [figures.small_multiples(outputs[:MULTIPLES], "m")]]
 
 
@@ -136,10 +141,10 @@ def contents(r):
     shown = varying(r)
     along = list(profiles(r))
     return dict(
-        spatial=spatial(r), profiles=along, asked=[studies.target(t) for t in r.targets], left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
-        diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
+        spatial=spatial(r), profiles=along, asked=[of_target(t, by_output(r.budgets, "output")) for t in r.targets], left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
+        left_out_samples=failed.explanation(r), diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
-        kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
+        tail=rounding.probability((1 - r.coverage_probability) / 2), kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
         method=METHODS.get(r.method, r.method), samples=rounding.thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r, set().union(*(p.names for p in along))),
         constants=[tables.constant_text(o) for o in r.outputs if o not in shown and not getattr(o, "diagnostic", 0)], numbered=tables.numbered(r),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],

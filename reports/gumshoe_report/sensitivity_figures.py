@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from . import rounding
+from . import resolved, rounding
 from .figures import BLUE, GREY, GRID, INK, ORANGE, svg
 
 MOST, FEWEST = 12, 4  # bars; the rest is one bar
@@ -77,7 +77,7 @@ def index_bars(axes, rows, order, bars):
 
 def side_by_side(budget, sobol, shapley, name):
     """Tornado plot of the budget, next to the indices of the same quantities if there are any."""
-    contributions = {c.name: c for c in budget.rows} if budget else {}
+    contributions = {c.name: c for c in resolved.without_dust(budget).rows} if budget else {}
     indices = sobol or shapley
     rows = {i.input: i for i in indices.rows} if indices else {}
     bars = ([("first", -0.19, 0.32, BLUE, "first order"), ("total", 0.19, 0.32, ORANGE, "total")] if sobol else
@@ -94,7 +94,7 @@ def side_by_side(budget, sobol, shapley, name):
         order = names  # one bar for one quantity would hide its name and save nothing
     left_out = [n for n in names if n not in order]
     rest = [contributions[n] for n in left_out if n in contributions]
-    has_budget = any(c.differentiable and 0 < c.contribution < math.inf for c in contributions.values())
+    has_budget = resolved.has_contributions(contributions.values())
     panels = has_budget + bool(rows)
     if panels == 0:
         return ""
@@ -106,15 +106,15 @@ def side_by_side(budget, sobol, shapley, name):
         tornado(grid[0][0], contributions, order, rest, unit, factor * budget.display_factor)
     if rows:
         axes = grid[0][-1]
-        index_bars(axes, rows, order, bars)
-        if left_out:
+        if left_out:  # first, so that the axis has room for its bar
             axes.barh(len(order), sum(max(getattr(rows[n], bars[0][0]), 0) for n in left_out if n in rows), height=0.5,
                       color=GREY, alpha=0.6)
+        index_bars(axes, rows, order, bars)
         axes.set_title("Monte Carlo: " + ("Sobol’ indices" if sobol else "Shapley effects"), loc="left", fontsize=9,
                        color=INK)
         axes.set_xlabel(f"share of variance, {rounding.probability(getattr(indices, 'confidence', 0.95))} intervals")
         if sobol:
-            axes.legend(loc="lower right", frameon=False, fontsize=8)
+            axes.legend(loc="center right" if left_out else "lower right", frameon=False, fontsize=8)
     labels = [short(n) for n in order] + ([f"{len(left_out)} others"] if left_out else [])
     grid[0][0].set_yticks(range(len(labels)), labels)
     grid[0][0].set_ylim(len(labels) - 0.4, -0.6)

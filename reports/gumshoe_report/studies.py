@@ -6,6 +6,7 @@ from .rounding import after, decimals, degrees_of_freedom, finer, fixed, percent
 from .tables import point, spread
 
 NONE = "–"
+RULES = {"simple_acceptance": "simple acceptance", "iso_14253_1": "ISO 14253-1", "ilac_g8": "ILAC-G8", "stated": "the stated guard band"}
 EXACT = 1e-8  # a probability without samples is stated to this
 
 
@@ -205,7 +206,7 @@ def conformity(c, output):
         risks.append(("global producer’s risk R_P", chance(c.global_producer_risk, get("global_producer_risk_se"), least),
                       "the probability that an item of the process conforms and is rejected by such a measurement"))
     return types.SimpleNamespace(
-        name=c.name, unit=unit_text(c.display_units), estimate=show(c.estimate), accepted=bool(c.accepted),
+        name=c.name, rule=RULES.get(c.rule, ""), unit=unit_text(c.display_units), estimate=show(c.estimate), accepted=bool(c.accepted),
         tolerance=at("lower", "upper"), acceptance=at("acceptance_lower", "acceptance_upper"),
         guard=fixed(spread(c, c.guard_band), places), guarded=c.guard_band != 0, statement=c.statement,
         p_c=chance(c.conformance_probability, c.conformance_probability_se, least), risks=risks)
@@ -213,33 +214,6 @@ def conformity(c, output):
 
 def unit_after(row):
     return after(row.display_units)
-
-
-def target(t):
-    size = lambda value: significant(spread(t, value)) + unit_after(t) if math.isfinite(value) else NONE
-    def allowed(r, value):
-        return "any" if value == math.inf else significant(spread(r, value)) if math.isfinite(value) else "none"
-    lines = [types.SimpleNamespace(
-        quantity=r.quantity, unit=unit_text(r.display_units) or "1", present=significant(spread(r, r.present)),
-        allowed=allowed(r, r.allowed), gum=allowed(r, r.allowed_gum), cost=significant(r.cost, 3),
-        cheapest=significant(spread(r, r.cheapest))) for r in t.rows]
-    alone = [r.quantity for r in t.rows if r.allowed == r.allowed and r.allowed < r.present]
-    if not math.isfinite(t.present):
-        text = f"Wanted: U = {size(t.wanted)}."
-    elif t.present <= t.wanted:
-        text = (f"The target is already met: U = {size(t.present)} does not exceed {size(t.wanted)}. The allowed values show "
-                "how far each quantity may grow.")
-    elif alone:
-        text = (f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is enough: "
-                f"{', '.join(alone)}.")
-    else:
-        text = f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is not enough."
-    if math.isfinite(t.reached):
-        text += f" The cheapest combination reaches {size(t.reached)} at {significant(t.cost_ratio, 3)} times the present cost."
-    cheapest = [f"{r.quantity} {significant(spread(r, r.cheapest))}{unit_after(r)} ({significant(spread(r, r.present))} now)"
-                for r in t.rows if math.isfinite(r.cheapest) and r.cheapest < r.present]
-    return types.SimpleNamespace(output=t.output, text=text, statement=t.statement, rows=lines, cheapest=", ".join(cheapest),
-                                 has_cost=any(math.isfinite(r.cost) for r in t.rows))
 
 
 def stopping(s):

@@ -3,12 +3,12 @@ import math
 import re
 import types
 
-from . import conditions
+from . import budget_order, conditions, resolved
 from .explain import cancels, independent
 from .rounding import after, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
-ALIKE = 4            # components of many readings that each have a row of their own
+LONG = 10            # rows of a budget that are all shown
 FOLDED_INDEX = 5e-3  # the same of indices, where the law of propagation has no shares
 
 
@@ -52,12 +52,14 @@ def summary_row(o):
     return types.SimpleNamespace(
         name=o.name, unit=unit_text(o.display_units), estimate=show(o.estimate),
         called="median" if getattr(o, "estimate_is_median", 0) else "estimate",
-        u=fixed(spread(o, o.standard_uncertainty), places), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
+        u=fixed(spread(o, o.standard_uncertainty), places), U=significant(spread(o, getattr(o, "expanded_uncertainty", math.nan))),
+        k=fixed(getattr(o, "coverage_factor", math.nan), 2), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
         shortest=(show(o.shortest_low), show(o.shortest_high)),
         failed=f"{o.failed} of {total}" if o.failed else "",
         rank=of_failures(o, show) if o.failed else "",
         estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
         skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning,
+        said=bool(o.warning) and o.warning.partition(": ")[2] in o.statement,
         tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
 
 
@@ -131,6 +133,11 @@ def over(unit, divisor):
     return f"{unit}/({divisor})" if any(sign in divisor for sign in "/. *") else f"{unit}/{divisor}"
 
 
+def share_text(b, c):
+    """The share of a contribution by the law of propagation."""
+    return "–" if cancels(b) else "0" if c.contribution == 0 and c.differentiable else percent(c.share)
+
+
 def budget_row(b, c, factor):
     """`factor`: from the output's display unit to the unit of the contributions."""
     u = spread(c, c.standard_uncertainty)
@@ -141,63 +148,81 @@ def budget_row(b, c, factor):
         distribution=c.distribution, dof=f"{c.degrees_of_freedom:.4g}" if math.isfinite(c.degrees_of_freedom) else "∞",
         differentiable=bool(c.differentiable),
         sensitivity=significant(slope, 3), sensitivity_unit=unit_text(slope_unit),
-        contribution=significant(factor * spread(b, c.contribution)), share=percent(math.nan if cancels(b) else c.share),
+        contribution=significant(factor * spread(b, c.contribution)), share=share_text(b, c),
         width=max(0.0, min(100.0, 100 * c.share)) if math.isfinite(c.share) and not cancels(b) else 0,
-        monte_carlo=percent(c.monte_carlo_share), scope=c.scope, source=c.source)
+        scope=c.scope, source=c.source)
 
 
-def alike(rows, sobol):
-    """Components of one quantity that differ in nothing but the reading, as one row; few of them stay apart."""
-    groups, quantities = {}, [c.quantity for c in rows]
-    indices = {i.input: i.first for i in sobol.rows} if sobol else {}  # of whole quantities
-    for c in rows:
-        groups.setdefault((c.quantity, c.standard_uncertainty, c.distribution, c.evaluation, c.source, c.scope,
-                           c.name.rpartition(":")[2] if ":" in c.name else "", bool(c.differentiable)), []).append(c)
-    for (quantity, *_, part, _), group in groups.items():
-        if len(group) <= ALIKE:
-            yield from group
-            continue
-        same = {c.sensitivity for c in group}
-        known = lambda key: [v for v in (getattr(c, key) for c in group) if math.isfinite(v)]
-        total = lambda key: sum(known(key)) if known(key) else math.nan
-        whole = indices.get(quantity, math.nan) if len(group) == quantities.count(quantity) else math.nan
-        yield types.SimpleNamespace(**{
-            **vars(group[0]), "name": f"{quantity}{f':{part}' if part else ''}, {len(group)} alike", "estimate": math.nan,
-            "sensitivity": same.pop() if len(same) == 1 else math.nan, "share": total("share"),
-            "monte_carlo_share": total("monte_carlo_share") if known("monte_carlo_share") else whole, "contribution": math.hypot(*known("contribution"))
-            if known("contribution") else math.nan})
+def is_small(group, has_gum):
+    """Whether a group of rows is one of those that a long budget sums up in one line."""
+    if not has_gum:
+        return group.first < FOLDED_INDEX
+    return not group.resolved() >= FOLDED_BELOW and all(
+        c.differentiable and math.isfinite(c.share) and c.share < FOLDED_BELOW for c in group.rows)
+
+
+def folded(groups, has_gum):
+    """The groups that the page sums up in one line: small ones of a long budget, and those that have no effect at all."""
+    small = [g for g in groups if is_small(g, has_gum)]
+    count = lambda some: sum(len(g.rows) for g in some)
+    if count(groups) <= LONG:
+        small = [g for g in small if has_gum and all(c.contribution == 0 for c in g.rows)]
+    return small if count(small) > 3 else []
+
+
+def group_rows(b, group, factor):
+    """The rows of a group as text; the first one has the cell of the Monte Carlo column for all."""
+    for k, c in enumerate(group.rows):
+        row = budget_row(b, c, factor)
+        row.span, row.quantity = (len(group.rows) if k == 0 else 0), c.quantity
+        row.monte_carlo = resolved.index_text(group.first, group.index)
+        yield row
+
+
+def folded_share(groups, has_gum):
+    if has_gum:
+        total = sum(c.share for g in groups for c in g.rows)
+        return percent(total) if total else "0"
+    known = [g for g in groups if math.isfinite(g.first)]
+    return resolved.stated(sum(g.first for g in known), math.hypot(*(resolved.half_width(g.index) for g in known if g.index)))
+
+
+def second_order(b):
+    """What terms of second order do, where it is much."""
+    u = b.combined_standard_uncertainty
+    if not u > 0 or not (abs(b.second_order_uncertainty / u - 1) > 0.05 or abs(b.second_order_bias) > 0.1 * u):
+        return []
+    size = lambda value: with_unit(significant(spread(b, value)), b.display_units)
+    shift = f" and shift the mean by {size(b.second_order_bias)}" if b.second_order_bias else ""
+    return [f"second-order terms change u_c to {size(b.second_order_uncertainty)}{shift}"]
 
 
 def budget(b, u_monte_carlo=math.nan, sobol=None):
     """The budget of one output as text; `u_monte_carlo` in SI."""
-    ordered = sorted(alike(b.rows, sobol), key=lambda c: -max([s for s in (c.share, c.monte_carlo_share) if math.isfinite(s)] + [0.0]))
+    b = resolved.without_dust(b)
+    ordered = budget_order.groups(budget_order.alike(b.rows), sobol)
     has_gum = any(math.isfinite(c.share) for c in b.rows) or not all(c.differentiable for c in b.rows) or b.applicable
-    small = [c for c in ordered if c.differentiable and math.isfinite(c.share) and c.share < FOLDED_BELOW and
-             not c.monte_carlo_share >= FOLDED_BELOW] if has_gum else \
-        [c for c in ordered if c.monte_carlo_share < FOLDED_INDEX]
-    folded = small if len(ordered) > 10 and len(small) > 3 else []
+    left_out = folded(ordered, has_gum)
     u = b.combined_standard_uncertainty
     dof = b.effective_degrees_of_freedom
     fine, factor = finer(b.display_units, spread(b, u) if u > 0 else abs(spread(b, u_monte_carlo)))
-    moved = [f"second-order terms change u_c to {with_unit(significant(spread(b, b.second_order_uncertainty)), b.display_units)} and shift the mean "
-             f"by {with_unit(significant(spread(b, b.second_order_bias)), b.display_units)}"] \
-        if u > 0 and (abs(b.second_order_uncertainty / u - 1) > 0.05 or abs(b.second_order_bias) > 0.1 * u) else []
     alone = math.hypot(*(c.contribution for c in b.rows if math.isfinite(c.contribution)))
     without_shares = [f"the inputs are correlated, and their contributions of {significant(factor * spread(b, alone))}{after(fine)} cancel to "
                       f"u_c = {significant(factor * spread(b, u))}{after(fine)}, so that they are no shares of the variance"] if cancels(b) else []
     return types.SimpleNamespace(
         output=b.output, unit=unit_text(b.display_units), applicable=bool(b.applicable), reason=b.reason, cancels=cancels(b),
-        rows=[budget_row(b, c, factor) for c in ordered if c not in folded], folded=len(folded),
-        folded_share=percent(sum(c.share if has_gum else c.monte_carlo_share for c in folded)),
+        rows=[row for g in ordered if g not in left_out for row in group_rows(b, g, factor)],
+        folded=sum(len(g.rows) for g in left_out), folded_share=folded_share(left_out, has_gum),
         folded_below=percent(FOLDED_BELOW if has_gum else FOLDED_INDEX), has_gum=has_gum,
-        has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in ordered),
+        has_monte_carlo=any(math.isfinite(g.first) for g in ordered), linear=not u == 0,
+        drawn=resolved.has_contributions(b.rows),
         correlation="" if independent(b) else "they cancel" if cancels(b) else percent(b.correlation_share), fine_unit=unit_text(fine),
-        interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),
+        interactions=resolved.interactions(b, sobol), u=significant(spread(b, u)),
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
         dof="∞" if math.isinf(dof) else "not defined, inputs correlated" if math.isnan(dof) else fixed(dof, 0),
         k=fixed(b.coverage_factor, 2), U=significant(spread(b, b.expanded_uncertainty)),
         estimate=fixed(point(b, b.estimate), decimals(spread(b, u))),
-        remarks=moved + without_shares + [text for text in (getattr(b, "remark", ""),) if text])
+        remarks=second_order(b) + without_shares + [text for text in (getattr(b, "remark", ""),) if text])
 
 
 def validation_row(v):

@@ -6,7 +6,7 @@ import types
 from . import compensation, names
 from .choice import SPACE, joined, with_unit
 from .rounding import decimals, finer, fixed, of_all, percent, significant, unit_text
-from .tables import budget_row, point, spread
+from .tables import point, spread
 
 LISTED = 12  # candidates and detection limits on the page; the CSV tables have all
 FAMILIES = {"effect": "effect", "declared": "declared quantity", "stated": "stated in the scenario",
@@ -34,6 +34,14 @@ def suited(unit, size):
     return unit, factor
 
 
+def of_limit(row):
+    """Unit and factor of a detection limit: lengths of um and mm alike, so that equal limits read alike."""
+    value = abs(spread(row, row.value))
+    unit, factor = ("mm", 1e-3) if row.display_units == "um" else (row.display_units, 1.0)
+    finest, further = suited(unit, factor * value)
+    return finest, factor * further
+
+
 def shown_unit(row, size):
     """A unit in which a difference of this size (SI) has digits before the point, and its factor from SI."""
     unit, factor = suited(row.display_units, abs(spread(row, size)))
@@ -57,6 +65,11 @@ def counted(names):
     return [*names[:first], f"{n} unknown effects", *(x for x in names[first:] if x != UNKNOWN)]
 
 
+def known_correlation(c):
+    """Correlation with the best candidate; "" where none is stored, because that one has no signature or is far better."""
+    return fixed(c.correlation, 2) if c.correlation else ""
+
+
 class Trace:
     """The group `trace` with its units."""
 
@@ -76,6 +89,12 @@ class Trace:
         self.found = bool(self.standing)
         self.added = any(r.after != r.before for r in t.residuals if math.isfinite(r.before))
         self.apart = any(r.final for r in t.residuals)
+
+    shown_unit = staticmethod(shown_unit)
+
+    def warns(self):
+        """Whether the card needs attention: neither found nor found to be sound."""
+        return not self.found and (self.t.verdict != "nothing_found" or bool(self.t.vetoed) or self.exceeds())
 
     def is_rejected(self, f):
         return bool(self.t.vetoed) and f.kind == "not_in_catalogue"
@@ -271,35 +290,6 @@ class Trace:
                 remarks=[self.in_remark(x) for x in f.remarks if x not in (f"described by {f.described_by}", self.as_well(f))], sizes=self.sizes(f),
                 removed=of_all(f.removed_share) if f.removed_share > 0 else "", curves=f.curves)
 
-    def before_and_after(self):
-        """The rows of the table: what, before, after, noise with its interval."""
-        r = self.t.rms
-        def noise(middle, low, high):
-            if not math.isfinite(middle):
-                return ""
-            interval = f" [{self.number(low)}, {self.number(high)}]" if math.isfinite(low) and math.isfinite(high) else ""
-            return self.number(middle) + interval
-        rows = []
-        def add(what, note, before, after, text=""):
-            if math.isfinite(before) or math.isfinite(after):
-                rows.append(types.SimpleNamespace(what=what, note=note, before=self.number(before),
-                                                  after=self.number(after), noise=text))
-        add("hold-out", self.of_blocks(r.holdout), r.holdout_before, r.holdout_after,
-            noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high))
-        add("worst block", self.of_blocks(r.worst_block), r.worst_block_before, r.worst_block_after)
-        add("worst point", r.worst_point, r.worst_point_before, r.worst_point_after)
-        add("in sample", "training data: used for the search and the fit, so too optimistic", r.before, r.after,
-            noise(r.noise, r.noise_low, r.noise_high))
-        for e in self.t.of_indications:
-            apart = math.isfinite(e.holdout_after)
-            was, now = (e.holdout_before, e.holdout_after) if apart else (e.before, e.after)
-            unit, factor = shown_unit(e, max(was, now))
-            places = decimals(factor * max(was, now))
-            rows.append(types.SimpleNamespace(
-                what=f"{e.name}, {'hold-out' if apart else 'in sample'}{unit_text(unit) and f' ({unit_text(unit)})'}", note="",
-                before=fixed(factor * was, places), after=fixed(factor * now, places), noise=""))
-        return rows
-
     def candidates(self, ranked=None):
         ranked = self.t.candidates if ranked is None else ranked
         top = max((c.statistic for c in ranked if math.isfinite(c.statistic)), default=0)
@@ -308,7 +298,7 @@ class Trace:
                 said=names.readable(c.name, c.shape), name=c.name, shape=c.shape, family=FAMILIES.get(c.family, c.family), parameters=c.parameters,
                 statistic=significant(c.statistic, 3), width=100 * c.statistic / top if top > 0 and c.statistic > 0 else 0,
                 p=significant(c.p_single), left=percent(c.identifiable), absorbed=c.absorbed_by,
-                correlation=fixed(c.correlation, 2), outcome=self.in_remark(c.outcome), kept=c.outcome.startswith(CHOSEN))
+                correlation=known_correlation(c), outcome=self.in_remark(c.outcome), kept=c.outcome.startswith(CHOSEN))
 
     def rounds(self):
         """Every round of `--loop` with what it added and its ranking; none if there was one round."""
@@ -322,7 +312,7 @@ class Trace:
 
     def limits(self):
         for d in self.t.limits[:LISTED]:
-            unit, factor = suited(d.display_units, abs(spread(d, d.value)))
+            unit, factor = of_limit(d)
             seen = math.isfinite(d.value)
             yield types.SimpleNamespace(effect=d.effect, said=names.readable(d.effect), quantity=names.plain(d.quantity), seen=seen, value=with_unit(
                 significant(factor * spread(d, d.value)), unit) if seen else "undetectable in these data")
@@ -376,25 +366,3 @@ class Trace:
             unit, factor = shown_unit(o, o.residual)
             yield types.SimpleNamespace(reading=o.reading, block=o.block, weight=fixed(o.weight, 2),
                                         residual=with_unit(significant(factor * o.residual), unit))
-
-    def budgets(self):
-        """Both budgets of each output, component by component."""
-        after = {b.output: b for b in self.t.after}
-        for b in self.t.before:
-            if b.output not in after:
-                continue
-            a = after[b.output]
-            u = [spread(x, x.combined_standard_uncertainty) for x in (b, a)]
-            fine, factor = finer(b.display_units, max(u))
-            sides = [{c.name: budget_row(x, c, factor) for c in x.rows} for x in (b, a)]
-            names = sorted({**sides[0], **sides[1]}, key=lambda name: -max(
-                abs(c.contribution) for x in (b, a) for c in x.rows if c.name == name and math.isfinite(c.contribution))
-                if any(math.isfinite(c.contribution) for x in (b, a) for c in x.rows if c.name == name) else 0)
-            places = [decimals(x.display_factor * x.expanded_uncertainty) for x in (b, a)]
-            yield types.SimpleNamespace(
-                output=b.output, unit=unit_text(b.display_units), fine=unit_text(fine),
-                rows=[(name, sides[0].get(name), sides[1].get(name)) for name in names],
-                u=[significant(factor * x) for x in u],
-                applicable=[bool(x.applicable) for x in (b, a)], reasons=[x.reason for x in (b, a)],
-                estimates=[fixed(point(x, x.estimate), place) for x, place in zip((b, a), places)],
-                U=[significant(spread(x, x.expanded_uncertainty)) for x in (b, a)])

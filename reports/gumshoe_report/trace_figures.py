@@ -143,6 +143,12 @@ def averages(x, y):
     return np.array([x[g].mean() for g in groups]), np.array([y[g].mean() for g in groups]), np.array(spread)
 
 
+def has_averages(rows, by_reading):
+    """Whether the figure against a condition shows averages."""
+    rows, values = scored(rows)
+    return len(averages(np.array([by_reading[r.reading] for r in rows]), values["before"])[0]) > 0
+
+
 def points(axes, x, y, final, colour):
     """Every residual, those of final blocks open, and their averages."""
     for which, face in ((~final, colour), (final, "white")):
@@ -252,7 +258,7 @@ def by_label(rows, labels, blocks, name):
 
 
 def sizes(t, name):
-    """Root mean squares before, after and of noise alone, with what chance makes of it."""
+    """Standard deviations of the residuals before, after and of noise alone, with what chance makes of it."""
     r, w = t.t.rms, t.factor
     found = [("hold-out", t.of_blocks(r.holdout), r.holdout_before, r.holdout_after,
               (r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high)),
@@ -278,9 +284,9 @@ def sizes(t, name):
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     axes.set_xlim(0, 1.1 * w * max(x for row in found for x in (*row[2:4], *(row[4] or ())) if math.isfinite(x)))
-    axes.set_xlabel(axis_label("root mean square of the residuals", t.unit))
+    axes.set_xlabel(axis_label("residual standard deviation", t.unit))
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=3, frameon=False, fontsize=8)
-    return svg(figure, name, f"Root mean square of the residuals{' before and after' if t.added else ''}, compared with noise alone")
+    return svg(figure, name, f"Residual standard deviation{' before and after' if t.added else ''}, compared with noise alone")
 
 
 def cells(t, name):

@@ -4,7 +4,7 @@ import types
 
 import markupsafe
 
-from . import figures, trace, trace_axes, trace_figures
+from . import figures, trace, trace_axes, trace_budgets, trace_errors, trace_figures
 
 DRAWN = 8  # conditions in the figure of residuals
 UNKNOWN_ORDER = "unknown"  # in place of the condition that gives the order of measurement
@@ -26,6 +26,7 @@ def residual_figures(t, k, indication):
     return types.SimpleNamespace(
         indication=indication, in_order=order, left_out=[name for name, *_ in varying[DRAWN:]], final=any(r.final for r in rows),
         unscored=sum(not math.isfinite(r.before) for r in rows), several=len(varying) > 1,
+        averaged=any(trace_figures.has_averages(rows, by_reading) for _, _, by_reading, _ in varying[:DRAWN]),
         dependent=any(chosen for *_, chosen in varying), outliers=crosses, beyond=triangles,
         **{name: markupsafe.Markup(drawing) for name, drawing in drawings.items()})
 
@@ -47,4 +48,5 @@ def contents(r):
         notes=[note for note in r.notes if not note.endswith(OF_RUNS)],
         sizes=markupsafe.Markup(trace_figures.sizes(words, "z")) if words.known else "",
         residuals=[d for d in drawn if d], candidates=list(words.candidates()), limits=list(words.limits()),
-        budgets=list(words.budgets()), indications=indications)
+        budgets=trace_budgets.budgets(r.trace, words.standing), outcome=trace_budgets.outcome(words.standing),
+        errors=trace_errors.rows(words), indications=indications)

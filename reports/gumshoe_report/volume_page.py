@@ -47,15 +47,17 @@ class Grid:
         return ", ".join(f"{a.name} {c[i]:g}{after(a.display_units)}" for a, c, i in zip(self.axes, self.commands, index))
 
 
-def number(row, value):
-    return f"{spread(row, value):.4g}".replace("-", "−")
+def number(row, value, u):
+    """A quantity to the place of its standard uncertainty, or with four digits if it has none."""
+    places = decimals(spread(row, u))
+    return f"{spread(row, value):.4g}".replace("-", "−") if places is None else fixed(spread(row, value), places)
 
 
 def contents(r):
     v = r.volume
     grid = Grid(v)
     worst, unsure = v.points[int(v.largest)], v.points[int(v.largest_u)]
-    causes = [types.SimpleNamespace(name=s.name, unit=unit_text(s.display_units), value=number(s, s.value), u=significant(spread(s, s.standard_uncertainty)),
+    causes = [types.SimpleNamespace(name=s.name, unit=unit_text(s.display_units), value=number(s, s.value, s.standard_uncertainty), u=significant(spread(s, s.standard_uncertainty)),
                                     error=grid.text(s.error, worst.u_length if worst.u_length > 0 else None), share=percent(s.share))
               for s in v.shares[:LISTED]]
     return dict(

@@ -202,7 +202,12 @@ samples = 20000
         self.assertEqual(at, sorted(at))
         self.assertEqual(len({z for _, _, z in at}), 3)
         self.assertEqual({p["unit"] for p in points}, {"m"})
-        self.assertTrue((self.folder / "v_causes.csv").exists())
+        causes = list(csv.DictReader(io.StringIO((self.folder / "v_causes.csv").read_text())))
+        self.assertEqual({cause["error_unit"] for cause in causes}, {"m"})
+        table = page[page.index("What causes it"):]
+        for value, u in re.findall(r'</th><td class="n">([^<]*)</td><td class="n">([^<]*)</td>', table):
+            decimals = lambda text: len(text.partition(".")[2])
+            self.assertEqual(decimals(value), decimals(u), (value, u))  # to the place of u
 
     def test_what_is_wrong_is_said_where_it_is(self):
         by_label = THREE.replace("virtual_experiment", "propagation") + '''[indications.X]
