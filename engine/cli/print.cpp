@@ -262,6 +262,9 @@ void print_text(const Results& r, const std::string& file, const PrintOptions& o
     std::cout << "note: " << r.notes[i] << '\n';
   }
   for (const std::string& f : r.failures) std::cout << "failed: " << f << '\n';
+  if (!r.failures.empty() && !r.summaries.empty())
+    std::cout << fmt::format("failed samples count for no output: what is stated holds for the {} others\n",
+                             r.summaries[0].valid);
   std::cout << fmt::format("{} samples, seed {}, {}, {}: {}\n", r.samples, r.seed, r.method, r.evaluation, file);
 }
 

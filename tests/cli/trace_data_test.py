@@ -130,6 +130,14 @@ class TraceData(InFolder):
         for other in ("e_x", "e_y", "e_a[", "e_b[", "E_Y0C", "E_A0"):
             self.assertFalse([m for m in f["members"] if m.startswith(f"declared:{other}")])
         self.assertLess(v["rms"]["holdout_after"], 0.5 * v["rms"]["holdout_before"])
+        with h5py.File(self.folder / "trace_cone.h5") as file:
+            rows = file["trace/candidates"]
+            names, correlation = [name.decode() for name in rows["name"]], rows["correlation"][:]
+        # The first is a table, of whose columns the free form takes some: they span no less for that.
+        self.assertTrue(names[0].startswith("table:"))
+        self.assertAlmostEqual(correlation[0], 1, delta=1e-6)
+        for member in f["members"]:
+            self.assertGreater(max([c for name, c in zip(names, correlation) if name == member], default=1), 0.9, member)
 
     def test_what_is_declared_is_no_finding(self):
         text = (SCENARIOS / "trace_cone.toml").read_text().replace("data/cone.csv", "data/cone_shift.csv")

@@ -349,10 +349,28 @@ double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, s
   return criterion(left, k) - pair_criteria({a, b}, 1, residuals, k)(0, 1);
 }
 
+namespace {
+
+/// An orthonormal basis of the columns; the declared model may have taken some of them.
+Matrix span_of(const Matrix& columns) {
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  qr.setThreshold(1e-8);
+  return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
+}
+
+double correlation_of_spans(const Matrix& x, const Matrix& y) {
+  const Matrix a = span_of(x), b = span_of(y);
+  const Index smaller = std::min(a.cols(), b.cols());
+  if (smaller == 0) return 0;
+  return std::min(1.0, Eigen::JacobiSVD<Matrix>(a.transpose() * b).singularValues()[smaller - 1]);
+}
+
+} // namespace
+
 double Scan::correlation(std::size_t a, std::size_t b, std::size_t k) const {
   const Matrix x = reduced(a, k), y = reduced(b, k);
   const Eigen::LLT<Matrix> xx(Matrix(x.transpose() * x)), yy(Matrix(y.transpose() * y));
-  if (xx.info() != Eigen::Success || yy.info() != Eigen::Success) return 0;
+  if (xx.info() != Eigen::Success || yy.info() != Eigen::Success) return correlation_of_spans(x, y);
   const Matrix cross = xx.matrixL().solve(Matrix(x.transpose() * y));
   const Matrix canonical = yy.matrixL().solve(Matrix(cross.transpose()));
   const Eigen::JacobiSVD<Matrix> svd(canonical);
