@@ -387,9 +387,8 @@ bool accounts_for_variance(const Budget& b, const Summary& s) {
   constexpr double apart = 0.05;
   const double u = s.standard_uncertainty;
   if (!std::isfinite(u)) return true;
-  if (has_no_fourth_moment(b) &&
-      std::isfinite(
-          b.expanded_uncertainty)) { // how far the samples' u is off is not known; how long their interval is, is
+  // How far the samples' u is off is not known then; how long their interval is, is.
+  if (has_no_fourth_moment(b) && std::isfinite(b.expanded_uncertainty)) {
     const double length = s.symmetric.high - s.symmetric.low,
                  error = 2 * std::hypot(s.symmetric.low_se, s.symmetric.high_se);
     return std::fabs(length - 2 * b.expanded_uncertainty) <= 2 * apart * length + (std::isfinite(error) ? error : 0);

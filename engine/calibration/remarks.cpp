@@ -24,6 +24,13 @@ double uncertainty_of(const quantities::InputQuantity& quantity) {
   return largest;
 }
 
+/// What is left of readings without noise.
+double rounding_of(const Estimate& estimate) {
+  const auto measured = [](const Row& r) { return std::fabs(r.measured); };
+  constexpr double rounding = 1e-12;
+  return rounding * measured(std::ranges::max(estimate.rows, {}, measured));
+}
+
 } // namespace
 
 void Fit::remarks(Estimate& out) const {
@@ -61,6 +68,9 @@ void Fit::remarks(Estimate& out) const {
   if (!out.noise_declared && !(out.degrees_of_freedom > 0))
     out.notes.push_back(
         "there are as many unknowns as readings and no declared noise: no standard uncertainties are given");
+  if (!out.noise_declared && out.degrees_of_freedom > 0 && out.s <= rounding_of(out))
+    out.notes.push_back("the readings lie on the model but for rounding: their noise is not known from them, and the "
+                        "standard uncertainties are rounding, too. Declare the noise of a reading");
   if (out.chi_squared_probability < 1e-6)
     out.notes.push_back(fmt::format("the residuals are {:.3g} times what the declared noise explains: is a unit, a "
                                     "label or a reading wrong, an effect missing, or the noise larger?",
@@ -113,16 +123,15 @@ void Fit::outlier(Estimate& out) const {
   const auto largest = std::max_element(sizes.begin(), sizes.end());
   if (!(scale > 0) || !(*largest > 8 * scale) || !(*largest > (out.noise_declared ? 5 : 0))) return;
   const Row& row = out.rows[static_cast<std::size_t>(largest - sizes.begin())];
-  const auto measured = [](const Row& r) { return std::fabs(r.measured); };
-  constexpr double rounding = 1e-12;
-  if (std::fabs(row.residual) <= rounding * measured(std::ranges::max(out.rows, {}, measured))) return;
+  if (std::fabs(row.residual) <= rounding_of(out)) return;
+  const auto others = std::ranges::count_if(sizes, [&](double size) { return size > 8 * scale; }) - 1;
   const auto& indication = experiment_.model().card->indications[row.indication];
   const std::string unit(indication.unit);
-  out.notes.push_back(
-      fmt::format("{} stands out: {} is {:.4g}{} from the fit, {:.3g} times the usual residual",
-                  experiment_.reading_text(row.reading), indication.name,
-                  units::from_si(row.residual, unit, std::string(indication.si_unit), units::Kind::difference),
-                  units::suffix(unit), *largest / scale));
+  out.notes.push_back(fmt::format(
+      "{} stands out: {} is {:.4g}{} from the fit, {:.3g} times the usual residual{}",
+      experiment_.reading_text(row.reading), indication.name,
+      units::from_si(row.residual, unit, std::string(indication.si_unit), units::Kind::difference), units::suffix(unit),
+      *largest / scale, others > 0 ? fmt::format("; so {} {} more", others == 1 ? "does" : "do", others) : ""));
 }
 
 } // namespace gumshoe::calibration

@@ -40,11 +40,18 @@ constexpr Field<Result> question[] = {
     {"probability", of<&Result::probability>, one, "probability that the recommended setting meets the target",
      in_json},
     {"best", of<&Result::best>, one, "the recommended setting, by position in candidates"},
-    {"tried", of<&Result::tried>, one, "candidates run afresh until one was confirmed", in_json},
+    {"tried", of<&Result::tried>, one, "candidates run afresh, with faster ones than the first that was confirmed",
+     in_json},
     {"skipped", of<&Result::skipped>, one, "impossible combinations", {.json = "skipped/count"}},
-    {"near_share", asked_for<&Choose::near>, one, "share of time or U within which settings count as near",
+    {"near_share",
+     asked_for<&Choose::near>,
+     one,
+     "share of time or U within which settings count as near",
      {.json = "near/share"}},
-    {"near_count", of<&Result::near_count>, one, "candidates that meet the target within this share of the least time",
+    {"near_count",
+     of<&Result::near_count>,
+     one,
+     "candidates that meet the target within this share of the least time",
      {.json = "near/candidates"}}};
 
 using V = VariableRow;

@@ -69,7 +69,7 @@ struct Result {
   std::size_t best = 0;                 ///< recommended; not reached: the one of least U
   Candidate fresh;                      ///< the recommended one again, with fresh random numbers and more samples
   double probability = 0;               ///< that it meets the target, from the standard errors of the fresh numbers
-  std::size_t tried = 0;                ///< candidates run afresh until one was confirmed
+  std::size_t tried = 0;                ///< candidates run afresh, with faster ones than the first that was confirmed
   analysis::Sensitivity sensitivity;    ///< of e at the recommended setting: what limits it
   analysis::Shapley shapley;            ///< the same for correlated inputs
   std::vector<Neighbour> neighbours;

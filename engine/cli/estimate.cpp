@@ -155,7 +155,9 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
     }
   }
   const auto [unit, factor] = unit_of_s(e, r);
-  if (r.noise_declared)
+  if (!(r.degrees_of_freedom > 0))
+    std::cout << "no degrees of freedom: no reading is left to check the fit, or to tell the noise\n";
+  else if (r.noise_declared)
     std::cout << fmt::format("chi-squared {:.4g}, {} degrees of freedom, probability of more {:.3g}\n", r.chi_squared,
                              r.degrees_of_freedom, r.chi_squared_probability);
   else

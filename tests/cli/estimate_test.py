@@ -211,6 +211,19 @@ class Estimate(InFolder):
         fit = self.fit(noisy, data=DATA.replace("5.2", "0.0052"))
         self.assertTrue(any("declared noise explains" in n for n in fit["notes"]), fit["notes"])
 
+    def test_readings_without_noise_or_without_one_to_spare(self):
+        exact = "x,y\n" + "".join(f"{x},{1 + 2 * x}\n" for x in range(5))
+        self.assertTrue(any("lie on the model but for rounding" in n for n in self.fit(data=exact)["notes"]))
+        two = gumshoe("estimate", self.scenario(data="x,y\n0,1\n1,3\n"), cwd=self.folder)
+        self.assertIn("no degrees of freedom: no reading is left to check the fit", two.stdout)
+        self.assertNotIn("nan", two.stdout)
+
+    def test_outliers_are_counted(self):
+        rows = [f"{x},{1 + 2 * x + 0.01 * (-1) ** x}" for x in range(20)]
+        rows[4], rows[11], rows[15] = "4,12", "11,20", "15,34"
+        note, = [n for n in self.fit(LINE + '[estimate]\nloss = "tukey"\n', data="x,y\n" + "\n".join(rows) + "\n")["notes"] if "stands out" in n]
+        self.assertIn("; so do 2 more", note)
+
     def test_what_is_held_stands_in_the_written_scenario(self):
         """Whoever runs it reads the budget, and not the notes of the fit."""
         text = LINE.replace('"a + b * x"', '"a + b * x + o"').replace("[indications.y]", "[quantities.o]\nvalue = 0\nu = 0.5\n[indications.y]")

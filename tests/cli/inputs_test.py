@@ -137,10 +137,10 @@ size = { value = "3 um/m2", u = "0.1 um/m2" }
         trace = self.axis()
         self.done(*trace, "--append", "h.h5")
         data = self.folder / "data/linear_axis.csv"
-        lines = data.read_text().splitlines()
-        cells = lines[1].split(",")
-        cells[-1] = str(float(cells[-1]) + 0.01)
-        data.write_text("\n".join([lines[0], ",".join(cells), *lines[2:]]) + "\n")
+        head, *rows = [line.split(",") for line in data.read_text().splitlines()]
+        for row in rows:  # of another campaign
+            row[-1] = str(float(row[-1]) + 0.01)
+        data.write_text("".join(",".join(row) + "\n" for row in [head, *rows]))
         self.done(*trace, "--append", "h.h5")
 
 

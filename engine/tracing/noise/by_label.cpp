@@ -29,14 +29,15 @@ struct Stretch {
 std::vector<Stretch> stretches(const Observations& o, std::size_t indication, const Grouping& label,
                                const Replicates& replicates, const std::vector<Index>& rows, const Vector& about,
                                const std::vector<double>& ratio, bool drift) {
-  std::map<std::size_t, double> weights;                                      // of a cell
+  std::map<std::size_t, double> weights, of_pass; // of a cell; of a block
+  double of_all = 0;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of; // places among the chosen rows
   const auto place = [&](std::size_t i) { return index(rows[i]) / o.indications; };
   const auto cell = [&](std::size_t i) { return replicates.cell[place(i)]; };
   const auto weight = [&](std::size_t i) { return std::pow(ratio[label.group[o.sequence[place(i)]]], -2); };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (index(rows[i]) % o.indications != indication) continue;
-    weights[cell(i)] += weight(i);
+    weights[cell(i)] += weight(i), of_pass[replicates.pass[place(i)]] += weight(i), of_all += weight(i);
     of[{label.group[o.sequence[place(i)]], replicates.pass[place(i)]}].push_back(i);
   }
   std::vector<Stretch> out;
@@ -57,9 +58,12 @@ std::vector<Stretch> stretches(const Observations& o, std::size_t indication, co
     left -= q * (q.transpose() * left);
     Stretch one{where.first, where.second, {}, all_squares - left.squaredNorm(), 0};
     for (Index i = 0; i < n; ++i) {
-      const double of_cell = weight(all[index(i)]) / weights.at(cell(all[index(i)]));
+      const double own = weight(all[index(i)]), of_cell = own / weights.at(cell(all[index(i)]));
       one.drift_freedom += q.row(i).squaredNorm() * (1 - of_cell);
-      const double share = 1 - q.row(i).squaredNorm() - of_cell;
+      // A block has a constant of its own, which a constant of every group in it holds.
+      const double of_block =
+          replicates.passes_are_blocks && used == 0 ? own / of_pass.at(where.second) - own / of_all : 0;
+      const double share = 1 - q.row(i).squaredNorm() - of_cell - of_block;
       if (share < 0.1) continue; // hardly anything is left of one that is alone, or of two
       one.residuals.share.push_back(share);
       one.residuals.square.push_back(left[i] * left[i] / share);
