@@ -99,8 +99,8 @@ void print_rms(const Trace& t) {
                : show(middle);
   };
   std::cout << fmt::format("{:<44}{:>10}{:>10}   noise alone\n",
-                           with_unit(figures.unit.empty() || figures.unit == "1" ? "residuals, root mean square"
-                                                                                 : "residuals, root mean square,",
+                           with_unit(figures.unit.empty() || figures.unit == "1" ? "residual standard deviation"
+                                                                                 : "residual standard deviation,",
                                      figures.unit),
                            "before", "after");
   line("  in sample (training data)", r.before, r.after, noise(r.noise, r.noise_low, r.noise_high));

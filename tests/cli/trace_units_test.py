@@ -53,7 +53,7 @@ class Units(InFolder):
                                  read, labels='part = "part"', trace='redone = [["part"]]')
             self.assertEqual(v["findings"][0]["name"], "scatter:part", v["plain"])
             self.assertRegex(v["plain"][0], rf"\(standard deviation \S+ {shown}\)")
-            self.assertRegex(said, rf"residuals, root mean square, {shown} ")
+            self.assertRegex(said, rf"residual standard deviation, {shown} ")
             self.assertRegex(said, rf"  standard deviation = \S+ {shown}, u = \S+ {shown}, ")
             self.assertEqual(set(re.findall(r"[0-9] ([num]?m)\b", said)), {shown})
             self.assertNotRegex(said, r"\de[+-]?\d+ [nu]?m")
@@ -122,7 +122,7 @@ blocks = "cycle"
             said, v = self.trace(rows, "1", conditions='x = "x"', trace="")
             self.assertTrue(v["findings"], v["plain"])
             self.assertNotRegex(said, r"[0-9] 1[,; )\n]")
-            self.assertRegex(said, r"residuals, root mean square {2,}before")
+            self.assertRegex(said, r"residual standard deviation {2,}before")
 
     def test_readings_that_differ_in_time_are_not_of_equal_conditions(self):
         draw = random.Random(1)
