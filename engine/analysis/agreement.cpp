@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
+#include "analysis/validation.h"
 #include "base/error.h"
 #include "base/special_values.h"
 

@@ -26,6 +26,7 @@
 #include "analysis/summary.h"
 #include "analysis/tails.h"
 #include "analysis/target.h"
+#include "analysis/validation.h"
 #include "base/instruction_set.h"
 #include "base/progress.h"
 #include "base/special_values.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/gum.h"
+#include "analysis/validation.h"
 #include "base/error.h"
 #include "scenario/document.h"
 

@@ -6,16 +6,15 @@
 #include <map>
 
 #include <Eigen/Dense>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "analysis/certificate.h"
 #include "analysis/combine.h"
-#include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
+#include "analysis/validation.h"
 #include "base/error.h"
+#include "math/variance_ratio.h"
 
 namespace gumshoe::analysis {
 namespace {
@@ -37,8 +36,9 @@ public:
     find_shared();
     for (std::size_t i = 0; i < size(); ++i) separate(i);
     solve();
-    judge();
-    add_weighing();
+    const std::vector<double> weights = own_weights();
+    judge(weights);
+    add_weighing(weights);
     expand_mean(coverage_probability);
     compare();
     find_alike();
@@ -194,23 +194,18 @@ private:
   }
 
   /// Welch's test of equal means with unequal variances.
-  void judge() {
+  void judge(const std::vector<double>& p) {
     const auto n = static_cast<double>(size());
-    const std::vector<double> p = own_weights();
     double estimated = 0;
     for (std::size_t i = 0; i < size(); ++i) estimated += std::pow(1 - p[i], 2) / out_.parts[i].own_degrees_of_freedom;
-    const double chi_squared = std::min(out_.chi_squared, 1e300);
-    out_.ratio = chi_squared / (n - 1) / (1 + 2 * (n - 2) / (n * n - 1) * estimated);
+    out_.ratio = out_.chi_squared / (n - 1) / (1 + 2 * (n - 2) / (n * n - 1) * estimated);
     out_.ratio_degrees_of_freedom = estimated > 0 ? (n * n - 1) / (3 * estimated) : infinite;
-    out_.probability = estimated > 0
-                           ? cdf(complement(boost::math::fisher_f(n - 1, out_.ratio_degrees_of_freedom), out_.ratio))
-                           : cdf(complement(boost::math::chi_squared(n - 1), chi_squared));
+    out_.probability = p_of_variance_ratio(out_.ratio, n - 1, out_.ratio_degrees_of_freedom);
   }
 
   /// Its degrees of freedom are such that those of the mean stay as they are.
-  void add_weighing() {
+  void add_weighing(const std::vector<double>& p) {
     double own = 0, share = 0, satterthwaite = 0;
-    const std::vector<double> p = own_weights();
     for (std::size_t i = 0; i < size(); ++i) {
       const WeightedPart& part = out_.parts[i];
       own += std::pow(part.weight * part.own, 2);

@@ -33,8 +33,8 @@ public:
   const std::vector<Candidate>& candidates() const { return candidates_; }
   /// Those that meet a target, the fastest first; of equal times the one of less U.
   std::vector<std::size_t> meeting(double target) const;
-  /// Of each combination of the lists' values the one of least U that takes less than so many seconds, if U is within
-  /// two standard errors of the target; the least U first.
+  /// The candidate of least U for each combination of the lists' values, among those that take fewer seconds than this,
+  /// if its U is within two standard errors of the target; the least U first.
   std::vector<std::size_t> hopeful(double faster_than) const;
   /// The one of least U; empty if all failed.
   std::optional<std::size_t> least() const;

@@ -9,6 +9,7 @@
 #include "analysis/gum.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
+#include "analysis/validation.h"
 #include "base/units.h"
 
 namespace gumshoe::cli {

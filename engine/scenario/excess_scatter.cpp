@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "base/special_values.h"
+#include "math/variance_ratio.h"
 
 namespace gumshoe::scenario {
 namespace {
 
 constexpr double significance = 0.001;
-constexpr double practically_infinite = 1e6; ///< degrees of freedom
-
-/// Probability that the ratio of two variances is larger; `below` 0: the degrees of freedom of the second are infinite.
-double p_value(double ratio, double above, double below) {
-  using boost::math::complement;
-  ratio = std::min(ratio, 1e100);
-  if (below > 0 && below < practically_infinite) return cdf(complement(boost::math::fisher_f(above, below), ratio));
-  return cdf(complement(boost::math::chi_squared(above), above * ratio));
-}
 
 std::string freedom_text(double degrees) {
   if (!(degrees > 0)) return {};
@@ -45,8 +37,11 @@ std::string excess_scatter(const std::vector<Readouts>& readings, const Declared
   const double variance = uncertain + d.u * d.u + d.step * d.step / 4;
   // Welch-Satterthwaite: only the repeatability has finite degrees of freedom.
   const double share = uncertain / variance;
-  const double freedom = share > 0 ? d.repeatability.degrees_of_freedom / (share * share) : 0;
-  if (!(p_value(found.s * found.s / variance, found.degrees_of_freedom, freedom) < significance)) return {};
+  const double freedom = d.repeatability.degrees_of_freedom > 0 && share > 0
+                             ? d.repeatability.degrees_of_freedom / (share * share)
+                             : infinity;
+  const double ratio = found.s * found.s / variance;
+  if (!(p_of_variance_ratio(ratio, found.degrees_of_freedom, freedom) < significance)) return {};
   return fmt::format(
       "repeats scatter by s = {}{}, which exceeds what is declared ({}; p < {}): is a reading wrong, or is "
       "the declared value too small?",

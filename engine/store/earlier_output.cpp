@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
+#include "analysis/validation.h"
 #include "store/earlier_result.h"
 #include "store/stored_results.h"
 #include "store/stored_samples.h"

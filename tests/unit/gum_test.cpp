@@ -11,6 +11,7 @@
 #include "analysis/scale_points.h"
 #include "analysis/sobol.h"
 #include "analysis/summary.h"
+#include "analysis/validation.h"
 #include "base/error.h"
 #include "effects/effect.h"
 #include "gum_models.h"

@@ -7,10 +7,10 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "math/variance_ratio.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
-#include "tracing/noise/fisher.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -62,7 +62,7 @@ Own own_of(Matrix y, const Matrix& x, const std::vector<std::size_t>& group, std
   out.share = 1 - apart / common;
   const auto gained = static_cast<double>(more - fewer);
   const double f = (common - apart) / gained / (apart / freedom);
-  out.p_value = p_of_f(f, gained, freedom);
+  out.p_value = p_of_variance_ratio(f, gained, freedom);
   // The part that is the groups' own, over the freedom that it takes of what does not repeat.
   out.size = std::sqrt((common - apart) / (static_cast<double>(n - index(cells) - fewer)));
   return out;

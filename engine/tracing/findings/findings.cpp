@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "math/variance_ratio.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/errors.h"
 #include "tracing/findings/sizes.h"
@@ -14,7 +15,6 @@
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/in_place_of_scatter.h"
-#include "tracing/noise/fisher.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -142,7 +142,7 @@ void state_what_repeats_share(const TraceContext& c, const JointFit& fit, Trace&
                          static_cast<double>(independent(fit.design, c.fitter.rows()).size());
   if (out.noise.declared || repeats.freedom < criteria.least_pure_freedom || !(repeats.s[0] > 0) || freedom < 1) return;
   const double ratio = std::pow(out.noise.scale / repeats.s[0], 2);
-  if (!(p_of_f(ratio, freedom, repeats.freedom) < criteria.repeats_share_p)) return;
+  if (!(p_of_variance_ratio(ratio, freedom, repeats.freedom) < criteria.repeats_share_p)) return;
   const VariableCard& card = c.experiment.model().card->indications[0];
   const auto shown = [&](double x) { return shown_size(x, std::string(card.unit), std::string(card.si_unit)); };
   out.statements.push_back(fmt::format(

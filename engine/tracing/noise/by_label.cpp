@@ -9,8 +9,8 @@
 #include <Eigen/QR>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "math/variance_ratio.h"
 #include "tracing/criteria.h"
-#include "tracing/noise/fisher.h"
 #include "tracing/noise/student.h"
 
 namespace gumshoe::tracing {
@@ -93,7 +93,7 @@ bool drift(const std::vector<Stretch>& all, std::size_t count) {
     ratio += of.drift / of.left * (of.freedom - 2);
     above += of.drift_freedom, below += of.freedom;
   }
-  return above > 0 && p_of_f(ratio / above, above, below) < criteria.no_drift;
+  return above > 0 && p_of_variance_ratio(ratio / above, above, below) < criteria.no_drift;
 }
 
 struct Groups {

@@ -7,9 +7,9 @@
 #include <set>
 #include <span>
 
+#include "math/variance_ratio.h"
 #include "propagation/parallel.h"
 #include "tracing/criteria.h"
-#include "tracing/noise/fisher.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -304,7 +304,7 @@ Replicates PureError::without_idle_factors(const Vector& residual) const {
       const double more = left.freedom - fine.freedom;
       const bool told = more > 0 && fine.freedom > 0 && fine.squares > 0;
       const double ratio = told ? (left.squares - fine.squares) / more / (fine.squares / fine.freedom) : 0;
-      if (const double p = told ? p_of_f(ratio, more, fine.freedom) : 1; p > idle)
+      if (const double p = told ? p_of_variance_ratio(ratio, more, fine.freedom) : 1; p > idle)
         idle = p, best = std::move(coarse), of_best = left;
     }
     if (best.cell.empty()) return out;
