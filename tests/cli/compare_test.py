@@ -5,6 +5,7 @@ usage: compare_test.py path/to/gumshoe [unittest options]
 import json
 import math
 import shutil
+import sys
 import unittest
 
 import h5py
@@ -12,24 +13,10 @@ import h5py
 from lengths import K, Lengths
 from program import ROOT, SCENARIO, gumshoe
 
+sys.path.append(str(ROOT / "tests" / "recovery"))
+import axis
+
 SAMPLES = 200_000
-
-
-PLAY = """schema = 1
-[model]
-name = "linear_axis"
-[data]
-file = "play.csv"
-labels = { cycle = "cycle" }
-units = { x = "mm", d = "um" }
-conditions = { position = "x", direction = "direction" }
-[quantities]
-offset = { estimated = true, value = "0 um" }
-[indications.deviation]
-readings = "d"
-[trace]
-blocks = "cycle"
-"""
 
 
 class Compare(Lengths):
@@ -149,8 +136,8 @@ class Compare(Lengths):
             for cycle in range(6):
                 rows += [f"{cycle},{x},{way}1,{-play / 2 * int(way + '1') + 0.3 * math.sin(7.3 * cycle + 1.7 * x + k):.3f}"
                          for way, xs in (("+", range(0, 500, 50)), ("-", range(450, -1, -50))) for x in xs]
-            (self.folder / "play.csv").write_text("\n".join(rows) + "\n")
-            (self.folder / "play.toml").write_text(PLAY)
+            (self.folder / "r.csv").write_text("\n".join(rows) + "\n")
+            (self.folder / "play.toml").write_text(axis.LINEAR_AXIS)
             files.append(self.folder / f"play{k}.h5")
             run = gumshoe("trace", "play.toml", "--draws", 99, "--out", files[-1], "--force", cwd=self.folder)
             self.assertEqual(run.returncode, 0, run.stderr)

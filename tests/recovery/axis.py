@@ -40,6 +40,24 @@ T = {{ column = "T", unit = "degC" }}
 """
 
 
+# The model of an axis itself, whose reversal is in the catalogue; columns cycle, x, direction and d.
+LINEAR_AXIS = """schema = 1
+[model]
+name = "linear_axis"
+[data]
+file = "r.csv"
+labels = { cycle = "cycle" }
+units = { x = "mm", d = "um" }
+conditions = { position = "x", direction = "direction" }
+[quantities]
+offset = { estimated = true, value = "0 um" }
+[indications.deviation]
+readings = "d"
+[trace]
+blocks = "cycle"
+"""
+
+
 # What is missing, in um, at place p (mm, number), direction d, time t (s), temperature T (degC).
 MISSING = {
     "nothing": lambda x, p, d, t, T: 0,

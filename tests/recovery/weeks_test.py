@@ -16,22 +16,6 @@ import weeks
 
 GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
 
-OTHER = """schema = 1
-[model]
-name = "linear_axis"
-[data]
-file = "r.csv"
-labels = { cycle = "cycle" }
-units = { x = "mm", d = "um" }
-conditions = { position = "x", direction = "direction" }
-[quantities]
-offset = { estimated = true, value = "0 um" }
-[indications.deviation]
-readings = "d"
-[trace]
-blocks = "cycle"
-"""
-
 
 class Weeks(unittest.TestCase):
     def test_what_is_there_is_shown_and_nothing_else(self):
@@ -114,7 +98,7 @@ class Weeks(unittest.TestCase):
             table.write_text("\n".join([head, *reversed(rows)]) + "\n")
             self.assertIn("it holds these readings already", run("--append", "h.h5").stderr)
             axis.write(folder, "reversal", 3)
-            (folder / "other.toml").write_text(OTHER)
+            (folder / "other.toml").write_text(axis.LINEAR_AXIS)
             before = (folder / "h.h5").read_bytes()
             other = subprocess.run([GUMSHOE, "trace", "other.toml", "--append", "h.h5"], cwd=folder, capture_output=True, text=True)
             self.assertEqual(other.returncode, 2)
